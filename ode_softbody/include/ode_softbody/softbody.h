@@ -1,0 +1,263 @@
+/** @file
+ * Tetrahedral soft bodies for the Open Dynamics Engine.
+ *
+ * Create a soft world beside an ODE world, load a mesh, make a body of it, and go on calling
+ * dSpaceCollide and dWorldStep as before. Bodies deform, collide with the geoms of the space both
+ * ways, and report their motion substep by substep to whoever observes (ode_sound does).
+ *
+ * Conventions, as in ODE: SI units, world frame, outputs last, opaque ids, functions return 0 or
+ * NULL on failure after a sentence through ODE's message handler (dSetMessageHandler). A NULL id is
+ * a caller's bug and ends in dDebug. Not thread-safe per world: call from the thread that steps it.
+ */
+#ifndef ODE_SOFTBODY_SOFTBODY_H
+#define ODE_SOFTBODY_SOFTBODY_H
+
+#include <ode_softbody/export.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct dxSoftWorld* dSoftWorldID;
+typedef struct dxSoftMesh* dSoftMeshID;
+typedef struct dxSoftBody* dSoftBodyID;
+
+/* ---- World ------------------------------------------------------------------------------- */
+
+/** How the library learns that ODE's world is stepped. */
+typedef enum dSoftHook {
+    dSoftHookNone,       /**< it doesn't: call dSoftWorldStep() */
+    dSoftHookInterposed, /**< dWorldStep and dWorldQuickStep are ours: linked before ODE, preloaded */
+    dSoftHookThreading   /**< a wrapped threading implementation of the world announces the step */
+} dSoftHook;
+
+/** A world of soft bodies living in an ODE world and colliding in one of its spaces.
+ * It ends with dSoftWorldDestroy() or with the ODE world, whichever comes first. */
+DSOFT_API dSoftWorldID dSoftWorldCreate(dWorldID world, dSpaceID space);
+DSOFT_API void dSoftWorldDestroy(dSoftWorldID world);
+
+/** Advances soft bodies and ODE's world together by h [s]. Needed only where dSoftWorldGetHook()
+ * says dSoftHookNone; harmless elsewhere.
+ * @param step  dWorldStep or dWorldQuickStep.
+ * @return what `step` returned; 0 when h is not finite and positive. */
+DSOFT_API int dSoftWorldStep(dSoftWorldID world, dReal h, int (*step)(dWorldID, dReal));
+
+DSOFT_API dSoftHook dSoftWorldGetHook(dSoftWorldID world);
+DSOFT_API dReal dSoftWorldGetTime(dSoftWorldID world); /**< [s] stepped since creation */
+
+/** Work done and work skipped since creation. Start with struct_size = sizeof(dSoftWorldStats). */
+typedef struct dSoftWorldStats {
+    unsigned struct_size;
+    unsigned long steps;          /**< ODE steps seen */
+    unsigned long substeps;       /**< substeps taken */
+    unsigned long element_steps;  /**< element forces evaluated */
+    unsigned long contact_points; /**< contact points that bore force */
+    unsigned long contact_tests;  /**< surface nodes tested against a rigid shape in a substep */
+    unsigned long observer_calls; /**< substep views handed out */
+    dReal seconds;                /**< CPU time spent in substeps [s], observers included */
+    dReal observer_seconds;       /**< CPU time spent in observers [s] */
+} dSoftWorldStats;
+DSOFT_API int dSoftWorldGetStats(dSoftWorldID world, dSoftWorldStats* stats);
+
+/* ---- Mesh -------------------------------------------------------------------------------- */
+
+/** Reads linear tetrahedra from Gmsh .msh (2.2, 4.1), TetGen .node/.ele, legacy .vtk or Medit .mesh,
+ * chosen by the file's ending. The mesh belongs to the caller; bodies keep what they need of it. */
+DSOFT_API dSoftMeshID dSoftMeshLoad(const char* path);
+
+/** Mesh from arrays. @param nodes xyz packed [m]. @param tets four node indices each, from 0. */
+DSOFT_API dSoftMeshID dSoftMeshCreate(const dReal* nodes, int node_count, const int* tets,
+                                      int tet_count);
+
+/** Box of sides x, y, z [m] centred on the origin, cut into nx*ny*nz cells. */
+DSOFT_API dSoftMeshID dSoftMeshCreateBox(dReal x, dReal y, dReal z, int nx, int ny, int nz);
+/** Bar along x from 0 to length [m], width along y, thickness along z. */
+DSOFT_API dSoftMeshID dSoftMeshCreateBar(dReal length, dReal width, dReal thickness, int nx, int ny,
+                                         int nz);
+/** Plate in the xy plane centred on the origin [m], thickness along z. */
+DSOFT_API dSoftMeshID dSoftMeshCreatePlate(dReal length, dReal width, dReal thickness, int nx, int ny,
+                                           int nz);
+/** Spherical shell, lowest point at z = -radius, open towards +z from polar angle `opening` [rad]. */
+DSOFT_API dSoftMeshID dSoftMeshCreateBowl(dReal radius, dReal thickness, dReal opening, int rings,
+                                          int around, int layers);
+/** Tube along z from 0 to length [m]. */
+DSOFT_API dSoftMeshID dSoftMeshCreateTube(dReal length, dReal outer_radius, dReal inner_radius,
+                                          int along, int around, int layers);
+/** Solid sphere round the origin [m], `refinement` cells from centre to surface. */
+DSOFT_API dSoftMeshID dSoftMeshCreateSphere(dReal radius, int refinement);
+
+DSOFT_API void dSoftMeshDestroy(dSoftMeshID mesh);
+
+/** What a mesh is worth. Start with struct_size = sizeof(dSoftMeshQuality). */
+typedef struct dSoftMeshQuality {
+    unsigned struct_size;
+    int nodes;
+    int elements;
+    int surface_triangles;
+    int parts;             /**< pieces that share no node */
+    int worst;             /**< element of min_quality */
+    dReal min_quality;     /**< 1 regular tetrahedron, 0 flat */
+    dReal volume;          /**< [m^3] */
+    dReal min_edge;        /**< [m] */
+    dReal max_edge;        /**< [m] */
+    dReal bounds[6];       /**< xmin xmax ymin ymax zmin zmax [m], the order of dGeomGetAABB */
+} dSoftMeshQuality;
+DSOFT_API int dSoftMeshGetQuality(dSoftMeshID mesh, dSoftMeshQuality* quality);
+
+/* ---- Material ---------------------------------------------------------------------------- */
+
+/** Isotropic solid: start from dSoftSolidDefault() or dSoftSolidPreset(), then change fields. */
+typedef struct dSoftSolid {
+    unsigned struct_size; /**< set by dSoftSolidDefault(); lets the struct grow */
+    dReal young;          /**< [Pa], > 0 */
+    dReal poisson;        /**< [-], -1 < poisson < 0.5 */
+    dReal density;        /**< at rest [kg/m^3], > 0 */
+    dReal phi;            /**< viscous counterpart of lambda [Pa s], >= 0 (P01 3.1) */
+    dReal psi;            /**< viscous counterpart of mu [Pa s], >= 0 (P01 3.1) */
+    dReal alpha;          /**< mass-proportional damping [1/s], >= 0 */
+    dReal beta;           /**< stiffness-proportional damping [s], >= 0 */
+} dSoftSolid;
+
+DSOFT_API dSoftSolid dSoftSolidDefault(void); /**< steel */
+/** Fills in a named material. @return 0 for an unknown name, after listing the known ones. */
+DSOFT_API int dSoftSolidPreset(const char* name, dSoftSolid* solid);
+/** Name of the i-th preset, NULL past the last. */
+DSOFT_API const char* dSoftSolidPresetName(int i);
+
+/* ---- Body -------------------------------------------------------------------------------- */
+
+/** A body at rest in the mesh's own coordinates. Place it before the first step. */
+DSOFT_API dSoftBodyID dSoftBodyCreate(dSoftWorldID world, dSoftMeshID mesh, const dSoftSolid* solid);
+DSOFT_API void dSoftBodyDestroy(dSoftBodyID body);
+
+DSOFT_API void dSoftBodySetData(dSoftBodyID body, void* data); /**< yours; the library never looks */
+DSOFT_API void* dSoftBodyGetData(dSoftBodyID body);
+
+/** Substep [s]: 0 lets the library choose 0.9 of the critical step. Refused above the critical. */
+DSOFT_API int dSoftBodySetSubstep(dSoftBodyID body, dReal dt);
+DSOFT_API dReal dSoftBodyGetSubstep(dSoftBodyID body);
+/** Largest stable substep of the explicit step at rest [s]: a lower bound of it. */
+DSOFT_API dReal dSoftBodyGetCriticalStep(dSoftBodyID body);
+
+/** Moves the body as a rigid whole so that its centre of mass is here [m]. */
+DSOFT_API int dSoftBodySetPosition(dSoftBodyID body, dReal x, dReal y, dReal z);
+/** Turns the body about its centre of mass, from where it is. @param q w x y z, of length 1. */
+DSOFT_API int dSoftBodyRotate(dSoftBodyID body, const dQuaternion q);
+/** Gives all nodes one velocity [m/s]. */
+DSOFT_API int dSoftBodySetLinearVel(dSoftBodyID body, dReal x, dReal y, dReal z);
+/** Adds a spin about the centre of mass [rad/s] to the nodes' velocities. */
+DSOFT_API int dSoftBodyAddAngularVel(dSoftBodyID body, dReal x, dReal y, dReal z);
+
+/** Holds nodes where they are. @return number of nodes held. */
+DSOFT_API int dSoftBodyPinNodes(dSoftBodyID body, const int* nodes, int count);
+/** Frees all held nodes. */
+DSOFT_API void dSoftBodyUnpin(dSoftBodyID body);
+
+/** Force on a node [N] during the next step, added to what was added before. */
+DSOFT_API int dSoftBodyAddForceAtNode(dSoftBodyID body, int node, dReal fx, dReal fy, dReal fz);
+
+/** Contact of this body's surface. Start from dSoftContactDefault(). */
+typedef struct dSoftContact {
+    unsigned struct_size;
+    dReal friction;    /**< Coulomb's coefficient [-], >= 0; dInfinity sticks */
+    dReal stiffness;   /**< penalty per area and depth [Pa/m]; 0: as stiff as the substep allows */
+    dReal damping;     /**< time constant of normal and tangential damping [s], >= 0 */
+} dSoftContact;
+DSOFT_API dSoftContact dSoftContactDefault(void);
+DSOFT_API int dSoftBodySetContact(dSoftBodyID body, const dSoftContact* contact);
+
+/** Positions and velocities of all nodes in the mesh's order; borrowed until the next step.
+ * @param first  out: x of node 0.
+ * @param stride out: dReals from node to node.
+ * @return node count. */
+DSOFT_API int dSoftBodyGetPositions(dSoftBodyID body, const dReal** first, int* stride);
+DSOFT_API int dSoftBodyGetVelocities(dSoftBodyID body, const dReal** first, int* stride);
+/** Surface triangles, three node indices each, outward; borrowed while the body lives.
+ * @return triangle count. */
+DSOFT_API int dSoftBodyGetTriangles(dSoftBodyID body, const int** first);
+
+DSOFT_API dReal dSoftBodyGetMass(dSoftBodyID body);                       /**< [kg] */
+DSOFT_API void dSoftBodyGetCenterOfMass(dSoftBodyID body, dVector3 center); /**< [m] */
+DSOFT_API void dSoftBodyGetMomentum(dSoftBodyID body, dVector3 linear, dVector3 angular);
+/**< [kg m/s], [kg m^2/s] about the world's origin */
+
+/** Energies [J]. */
+typedef struct dSoftEnergy {
+    dReal kinetic;
+    dReal elastic;
+} dSoftEnergy;
+DSOFT_API dSoftEnergy dSoftBodyGetEnergy(dSoftBodyID body);
+
+/** How a body fares. */
+typedef struct dSoftStatus {
+    unsigned struct_size;
+    int stopped;          /**< 1: it went unstable, was reported and stands still */
+    dReal substep;        /**< in use [s] */
+    dReal critical_step;  /**< [s] */
+    dReal min_jacobian;   /**< least volume ratio of an element in the last step */
+    dReal max_stretch;    /**< upper bound of the largest stretch in the last step */
+    int contact_points;   /**< that bore force in the last substep */
+} dSoftStatus;
+DSOFT_API int dSoftBodyGetStatus(dSoftBodyID body, dSoftStatus* status);
+
+/** Elastic vibration modes of the body at rest as it is now pinned, ascending, rigid ones left out.
+ * @param frequencies  out: up to `count` frequencies [Hz].
+ * @return how many were written. */
+DSOFT_API int dSoftBodyGetModes(dSoftBodyID body, int count, dReal* frequencies);
+
+/** The geom that stands for the body in its space. Do not destroy it. */
+DSOFT_API dGeomID dSoftBodyGetGeom(dSoftBodyID body);
+/** The body behind a geom, NULL if there is none. */
+DSOFT_API dSoftBodyID dSoftGeomGetSoftBody(dGeomID geom);
+
+/* ---- Observers --------------------------------------------------------------------------- */
+
+/** One body at the end of a substep. All pointers are borrowed: they die on return. */
+typedef struct dSoftSubstep {
+    unsigned struct_size;
+    dSoftBodyID body;
+    dReal time;              /**< [s] since the world's creation */
+    dReal dt;                /**< [s] */
+    const dReal* position;   /**< of every node [m], world frame, x y z and padding */
+    const dReal* velocity;   /**< of every node [m/s], half a substep back */
+    int stride;              /**< dReals from node to node */
+    int node_count;
+    const int* triangle;     /**< three nodes each, outward; same array for the body's life */
+    int triangle_count;
+} dSoftSubstep;
+
+/** Called after each substep for each awake body, in order of registration. Must not change the
+ * world, its bodies or its observers. */
+typedef void dSoftSubstepCallback(void* data, const dSoftSubstep* substep);
+
+/** Called once a step, after its substeps and before ODE's own step.
+ * @param time  at the end of the step [s]. */
+typedef void dSoftStepCallback(void* data, dSoftWorldID world, dReal time);
+
+/** Called when a body ends, before anything of it is gone. */
+typedef void dSoftBodyEndCallback(void* data, dSoftBodyID body);
+
+/** Called when the world ends, before its bodies do. */
+typedef void dSoftWorldEndCallback(void* data, dSoftWorldID world);
+
+/** A set of callbacks; those left NULL are not called and cost nothing. */
+typedef struct dSoftObserver {
+    unsigned struct_size;
+    void* data; /**< handed to every callback; also the observer's name for removal */
+    dSoftSubstepCallback* on_substep;
+    dSoftStepCallback* on_step;
+    dSoftBodyEndCallback* on_body_end;
+    dSoftWorldEndCallback* on_world_end;
+} dSoftObserver;
+
+DSOFT_API int dSoftWorldAddObserver(dSoftWorldID world, const dSoftObserver* observer);
+DSOFT_API int dSoftWorldAddSubstepObserver(dSoftWorldID world, dSoftSubstepCallback* callback,
+                                           void* data);
+/** Removes every observer registered with `data`. @return how many. */
+DSOFT_API int dSoftWorldRemoveObserver(dSoftWorldID world, void* data);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

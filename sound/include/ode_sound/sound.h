@@ -1,0 +1,109 @@
+/** @file
+ * Sound of soft bodies: surface vibration -> air pressure -> ears -> sink.
+ *
+ * Create a sound world over a soft world, a listener, and give the listener a sink. Then step ODE
+ * as before. Without a listener nothing is computed.
+ *
+ * Conventions as in <ode_softbody/softbody.h>. Samples are pressures [Pa], except under the source
+ * paper's own rule, whose unit is Pa m per m (see dSoundSetRadiation).
+ */
+#ifndef ODE_SOUND_SOUND_H
+#define ODE_SOUND_SOUND_H
+
+#include <ode_softbody/softbody.h>
+#include <ode_sound/export.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct dxSoundWorld* dSoundWorldID;
+typedef struct dxSoundListener* dSoundListenerID;
+typedef struct dxSoundSink* dSoundSinkID;
+
+/* ---- World ------------------------------------------------------------------------------- */
+
+/** Sound of all bodies of a soft world. Ends with dSoundWorldDestroy() or with the soft world. */
+DSOUND_API dSoundWorldID dSoundWorldCreate(dSoftWorldID world);
+/** Plays out what still travels, closes files, frees listeners; sinks stay the caller's. */
+DSOUND_API void dSoundWorldDestroy(dSoundWorldID world);
+
+/** How surface motion becomes pressure:
+ * "monopole"  accelerations over all faces, rho/(4 pi) sum a dv_n/dt(t - R/c) / R  [Pa] (default)
+ * "rayleigh"  faces that look at the listener, baffled, rho/(2 pi)                 [Pa]
+ * "paper"     P01 equation 10 with its DC block: z v_n a cos(theta) / R            [Pa m]
+ * @return 0 for an unknown name, after listing the known ones. */
+DSOUND_API int dSoundSetRadiation(dSoundWorldID world, const char* name);
+
+/** How waves are sampled:
+ * "sinc"   displacement differences, Kaiser-windowed sinc decimation and fractional delay (default)
+ * "paper"  P01 equations 6-9 as written: velocity at every substep, Hann-windowed sinc of
+ *          ceil(3/(fmax dt)), Gaussian splat two samples wide. */
+DSOUND_API int dSoundSetSampling(dSoundWorldID world, const char* name);
+
+/** Air: density [kg/m^3] and speed of sound [m/s]; defaults 1.21 and 343 (20 C, 1 atm). */
+DSOUND_API int dSoundSetAir(dSoundWorldID world, dReal density, dReal speed);
+
+/** Cost and level since creation. Start with struct_size = sizeof(dSoundStats). */
+typedef struct dSoundStats {
+    unsigned struct_size;
+    unsigned long observed_substeps; /**< substep views looked at; 0 without a listener */
+    unsigned long gathers;           /**< of these, surfaces gathered */
+    unsigned long frames;            /**< audio frames rendered, all listeners */
+    unsigned long underruns;         /**< of live sinks */
+    dReal seconds;                   /**< CPU time spent on sound [s] */
+    dReal peak;                      /**< largest |sample| at any ear [Pa] */
+    dReal rms;                       /**< over all rendered frames and ears [Pa] */
+} dSoundStats;
+DSOUND_API int dSoundGetStats(dSoundWorldID world, dSoundStats* stats);
+
+/* ---- Listener ---------------------------------------------------------------------------- */
+
+/** Two ears 0.2 m apart at the origin, looking along -z with +y up (OpenAL's default). */
+DSOUND_API dSoundListenerID dSoundListenerCreate(dSoundWorldID world);
+DSOUND_API void dSoundListenerDestroy(dSoundListenerID listener);
+/** Midpoint between the ears [m]. May move at any time; the change is spread over the next step. */
+DSOUND_API int dSoundListenerSetPosition(dSoundListenerID listener, dReal x, dReal y, dReal z);
+/** View and up directions, of any length, not parallel; the ears lie on at x up. */
+DSOUND_API int dSoundListenerSetOrientation(dSoundListenerID listener, const dVector3 at,
+                                            const dVector3 up);
+/** Distance between the ears [m], >= 0; 0 makes both hear the same. */
+DSOUND_API int dSoundListenerSetEarDistance(dSoundListenerID listener, dReal distance);
+
+/** Sends what the listener hears to a sink, besides those it has. One sink serves one listener. */
+DSOUND_API int dSoundListenerAddSink(dSoundListenerID listener, dSoundSinkID sink);
+/** Like dSoundListenerAddSink(), in place of those it has. NULL leaves none. */
+DSOUND_API int dSoundListenerSetSink(dSoundListenerID listener, dSoundSinkID sink);
+
+/* ---- Sinks ------------------------------------------------------------------------------- */
+
+/** Level that becomes full scale (1.0) in files and on loudspeakers; default 20 Pa (120 dB SPL). */
+DSOUND_API int dSoundSetFullScale(dSoundWorldID world, dReal pressure);
+
+/** Sample rate [Hz] of everything rendered after; 8000..192000, default 48000. Before the first
+ * listener. */
+DSOUND_API int dSoundSetRate(dSoundWorldID world, int rate);
+
+/** Takes samples and forgets them. */
+DSOUND_API dSoundSinkID dSoundSinkCreateNull(void);
+/** Keeps all samples in memory. */
+DSOUND_API dSoundSinkID dSoundSinkCreateMemory(void);
+/** Writes 32-bit float WAV. A path that cannot be written is refused here. */
+DSOUND_API dSoundSinkID dSoundSinkCreateFile(const char* path);
+/** Plays live on OpenAL's default device. No device: a message, and a null sink instead. */
+DSOUND_API dSoundSinkID dSoundSinkCreateOpenAL(void);
+/** Plays out and closes. A listener that still has it lets it go. */
+DSOUND_API void dSoundSinkDestroy(dSoundSinkID sink);
+
+/** Which kind it is: "null", "memory", "file", "openal". */
+DSOUND_API const char* dSoundSinkGetKind(dSoundSinkID sink);
+/** Interleaved samples of a memory sink; borrowed until the next step. @return frames. */
+DSOUND_API unsigned long dSoundSinkGetSamples(dSoundSinkID sink, const float** first, int* channels);
+/** First failure in words the user can act on; "" while healthy. */
+DSOUND_API const char* dSoundSinkGetError(dSoundSinkID sink);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
