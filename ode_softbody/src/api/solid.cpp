@@ -1,0 +1,63 @@
+#include "api/solid.h"
+
+#include "base/error.h"
+#include "model/materials.h"
+
+#include <string>
+
+namespace ode::soft {
+namespace {
+
+dSoftSolid to_c(const Solid& s) noexcept {
+    dSoftSolid c{};
+    c.struct_size = sizeof c;
+    c.young = s.young;
+    c.poisson = s.poisson;
+    c.density = s.density;
+    c.phi = s.phi;
+    c.psi = s.psi;
+    c.alpha = s.alpha;
+    c.beta = s.beta;
+    return c;
+}
+
+} // namespace
+
+Solid from_c(const dSoftSolid& c) noexcept {
+    Solid s;
+    s.young = c.young;
+    s.poisson = c.poisson;
+    s.density = c.density;
+    s.phi = c.phi;
+    s.psi = c.psi;
+    s.alpha = c.alpha;
+    s.beta = c.beta;
+    return s;
+}
+
+} // namespace ode::soft
+
+using namespace ode::soft;
+
+dSoftSolid dSoftSolidDefault(void) {
+    return to_c(find_material("steel")->solid);
+}
+
+int dSoftSolidPreset(const char* name, dSoftSolid* solid) {
+    const Material* material = find_material(name);
+    if (!material) {
+        std::string known;
+        for (const Material& m : materials())
+            known += std::string(known.empty() ? "" : ", ") + m.name;
+        report(format("dSoftSolidPreset: no material '%s'; known are %s", name, known.c_str()));
+        return 0;
+    }
+    *solid = to_c(material->solid);
+    return 1;
+}
+
+const char* dSoftSolidPresetName(int i) {
+    const auto all = materials();
+    return i >= 0 && static_cast<std::size_t>(i) < all.size() ? all[static_cast<std::size_t>(i)].name
+                                                              : nullptr;
+}
