@@ -1,0 +1,57 @@
+#pragma once
+
+#include "collide/aabb.h"
+
+#include <ode/collision.h>
+#include <ode/collision_space.h>
+#include <ode/contact.h>
+
+namespace ode::soft {
+
+/// What stands behind a soft geom in ODE's space. Called on the thread that collides the space,
+/// with the space locked: touch no geom or space from within.
+class SoftGeomClient {
+public:
+    /// Current box, grown by as far as the surface may move before the next collision pass.
+    /// Asked for only after mark_moved(). An empty box keeps the geom where nothing is.
+    virtual Aabb aabb() noexcept = 0;
+
+    /// The boxes of this geom and `other` overlap. `other` is never a space, a ray or a disabled
+    /// geom; it may be another soft geom, and then only one of the two is told. It may be told
+    /// more than once for one pair.
+    virtual void on_pair(dGeomID other) noexcept = 0;
+
+    /// A ray meets the geom's box. Contacts as for dCollide(): g1 and side1 are the soft geom's.
+    /// collide_ray() does this for a triangle surface.
+    /// @param skip  bytes from contact to contact.
+    /// @return contacts written, at most flags & 0xffff.
+    virtual int on_ray(dGeomID ray, int flags, dContactGeom* contact, int skip) noexcept = 0;
+
+    /// The application has destroyed the geom or its space: the id is void from now on.
+    virtual void on_destroyed() noexcept = 0;
+
+protected:
+    ~SoftGeomClient() = default;
+};
+
+/// Puts a geom for `client` in `space`. All soft bodies share one user class of ODE's four.
+/// The geom is seen by no near callback: its pairs are taken from aabb_test, which then says "no
+/// overlap"; nested spaces are searched from there. Rays alone collide in the ordinary way.
+/// @param client  borrowed until on_destroyed() or destroy_soft_geom().
+/// @throws InputError when ODE has no user class left.
+dGeomID create_soft_geom(dSpaceID space, SoftGeomClient& client);
+
+/// Destroys the geom without telling its client.
+void destroy_soft_geom(dGeomID geom) noexcept;
+
+/// Makes ODE ask for the box again at the next collision pass. Not while the space is locked.
+void mark_moved(dGeomID geom) noexcept;
+
+/// nullptr for any geom that create_soft_geom() did not make.
+SoftGeomClient* soft_geom_client(dGeomID geom) noexcept;
+
+/// Makes the geom meet everything in the topmost space it lies in, for applications that have not
+/// collided their space since the last step. No near callback is involved.
+void collide_now(dGeomID geom) noexcept;
+
+} // namespace ode::soft

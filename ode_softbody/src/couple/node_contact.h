@@ -1,0 +1,87 @@
+#pragma once
+
+#include "collide/rigid_shape.h"
+#include "couple/rigid_shadow.h"
+#include "couple/surface_nodes.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace ode::soft {
+
+/// How a soft body's surface meets rigid ones.
+struct ContactLaw {
+    double friction = 0.5; ///< Coulomb's coefficient [-]; infinite sticks
+    double stiffness = 0;  ///< penalty per area and depth [Pa/m]; 0: as stiff as the substep allows
+    double damping = 3e-5; ///< time constant of the dashpots, force k (depth + damping * speed) [s]
+};
+
+/// Work done in one call.
+struct ContactTally {
+    unsigned long tests = 0;   ///< nodes whose distance was evaluated
+    unsigned long bearing = 0; ///< nodes that bore force
+};
+
+/// Contact of one soft body's surface nodes with one rigid shape, kept from step to step as long as
+/// the pair stays near, because friction has a memory.
+///
+/// Normal force of node i: max(0, k_i depth + c_i approach speed), k_i = kappa A_i. Depth is that
+/// of the closest surface point, continuous over edges and corners, so the force has a potential
+/// and needs no cap on depth. Explicit stability bounds k_i by kStiffnessShare of what the node's
+/// mass bears at this substep, and c_i likewise; a light rigid body lowers both
+/// (RigidShadow::softening).
+///
+/// Friction: a spring of 0.7 k_i from a point that is fixed to the shape, clamped to mu F_n, with a
+/// dashpot; then the sum is clamped. The spring alone moves the anchor (clamping by the total would
+/// push forward after a stop).
+///
+/// Node and shape get opposite forces at one point, the node: linear and angular momentum of the
+/// pair are kept to rounding.
+class NodeContact {
+public:
+    /// @param nodes  borrowed for the contact's life. Allocates all it will ever need.
+    /// @param geom   names the pair; never dereferenced.
+    NodeContact(const SurfaceNodes& nodes, dGeomID geom);
+
+    dGeomID geom() const noexcept { return geom_; }
+
+    /// Start of a step. Anchors are kept unless the shape has become another one.
+    /// @param inverse_mass  of every mesh node [1/kg]; nodes that are held (0) take no force.
+    void begin_step(const RigidShape& shape, const ContactLaw& law,
+                    std::span<const double> inverse_mass, double dt) noexcept;
+
+    /// Adds contact forces to `force` [N] and their reaction to `rigid`. Looks for nodes near the
+    /// shape anew whenever they may have come within reach since it looked last.
+    ContactTally add_force(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid,
+                           double dt, NodeArray& force) noexcept;
+
+    /// Some node bore force in the last substep.
+    bool bearing() const noexcept { return bearing_ != 0; }
+    /// Factor that softened the contact in the last substep, to be handed to the next step's
+    /// shadow.
+    double softening() const noexcept { return softening_; }
+    /// Elastic energy of penalty and friction springs after the last substep [J].
+    double energy() const noexcept { return energy_; }
+
+private:
+    void find_candidates(const NodeArray& position, const NodeArray& velocity,
+                         const RigidMotion& motion) noexcept;
+
+    const SurfaceNodes& nodes_;
+    dGeomID geom_;
+    RigidShape shape_;
+    ContactLaw law_;
+    // Per surface node:
+    std::vector<double> stiffness_; ///< [N/m], 0: held
+    std::vector<double> damping_;   ///< [N s/m]
+    std::vector<double> anchor_;    ///< xyz in the shape's frame [m]
+    std::vector<std::uint8_t> held_by_anchor_;
+    std::vector<int> candidate_; ///< surface nodes near the shape
+    double look_again_in_ = 0;   ///< [s]
+    std::size_t bearing_ = 0;
+    double softening_ = 1;
+    double energy_ = 0;
+};
+
+} // namespace ode::soft
