@@ -8,7 +8,7 @@ namespace plots {
 Gnuplot::Gnuplot() {
     // A gnuplot that ends early must not end us: writes then fail, and finish() tells.
     std::signal(SIGPIPE, SIG_IGN);
-    pipe_ = popen("gnuplot 2>/dev/null", "w");
+    pipe_ = popen("gnuplot >/dev/null 2>&1", "w");
 }
 
 Gnuplot::~Gnuplot() { finish(); }
@@ -33,7 +33,7 @@ std::string Gnuplot::finish() {
         return "";
     if (WIFEXITED(status) && WEXITSTATUS(status) == kNotFound)
         return "gnuplot is not installed (package gnuplot-nox)";
-    return "gnuplot failed";
+    return "gnuplot failed; can the file be written?";
 }
 
 std::string quoted(const std::string& text) {

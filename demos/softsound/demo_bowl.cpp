@@ -15,6 +15,7 @@
 // at its right edge, and change only in strength. Linear tetrahedra are too stiff in bending: the
 // lowest partial is two octaves above a real bowl's.
 
+#include "plots/partials.h"
 #include "plots/sound_picture.h"
 #include "scenes/drop.h"
 #include "softsound/demo.h"
@@ -22,6 +23,7 @@
 #include "softsound/performance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 
@@ -43,6 +45,8 @@ constexpr int kModes = 40;        // marked: about as many as lie below 20 kHz
 constexpr double kTop = 20000;    // [Hz] hearing ends
 constexpr double kFlight = 0.015; // [s] the rim's chatter within one landing is faster
 
+constexpr double kLate = 0.03; // [s] travel over 1.6 m takes 5 ms, the chatter of a landing 15 ms
+
 struct Options {
     scenes::Drop drop;
     Stage stage;
@@ -56,6 +60,34 @@ std::vector<double> audible_modes(dSoftBodyID body) {
     modes.resize(static_cast<std::size_t>(dSoftBodyGetModes(body, kModes, modes.data())));
     std::erase_if(modes, [](double f) { return f > kTop; });
     return modes;
+}
+
+/// The longest stretch of sound without an impact in it.
+/// @param late  what lies between an impact and its clean ring at the ear: travel and chatter [s]
+std::span<const float> longest_ring(const Performance& p, std::vector<double> impacts,
+                                    double late) {
+    std::span<const float> longest;
+    impacts.push_back(p.seconds);
+    for (std::size_t i = 0; i + 1 < impacts.size(); ++i) {
+        const auto sample = [&](double t) {
+            return std::min(p.left.size(), static_cast<std::size_t>(t * p.rate));
+        };
+        const std::size_t first = sample(impacts[i] + late);
+        const std::size_t end = sample(impacts[i + 1]);
+        if (end > first && end - first > longest.size())
+            longest = std::span(p.left).subspan(first, end - first);
+    }
+    return longest;
+}
+
+nlohmann::ordered_json as_json(const std::vector<plots::Partial>& partials) {
+    auto out = nlohmann::ordered_json::array();
+    for (const plots::Partial& partial : partials)
+        out.push_back({{"predicted", partial.predicted},
+                       {"measured", partial.measured},
+                       {"cents", 1200 * std::log2(partial.measured / partial.predicted)},
+                       {"level_db", partial.level}});
+    return out;
 }
 
 void summarise(const nlohmann::ordered_json& r, const Performance& p, const Options& o) {
@@ -75,7 +107,14 @@ void summarise(const nlohmann::ordered_json& r, const Performance& p, const Opti
     std::printf(" s\nlowest modes at:");
     for (std::size_t i = 0; i < std::min<std::size_t>(8, r["modes"].size()); ++i)
         std::printf(" %.0f", r["modes"][i].get<double>());
-    std::printf(" Hz\nsound in %s\n", o.stage.out.c_str());
+    std::printf(" Hz\n");
+    for (std::size_t i = 0; i < std::min<std::size_t>(8, r["partials"].size()); ++i) {
+        const auto& partial = r["partials"][i];
+        std::printf("  predicted %8.1f Hz, heard %8.1f Hz (%+.1f cents)\n",
+                    partial["predicted"].get<double>(), partial["measured"].get<double>(),
+                    partial["cents"].get<double>());
+    }
+    std::printf("sound in %s\n", o.stage.out.c_str());
     if (p.live_kind == "openal" && p.sound.underruns > 0)
         std::printf("live: %lu gaps, because the simulation ran at %.2f of real time\n",
                     p.sound.underruns, p.seconds / p.wall);
@@ -97,6 +136,8 @@ int run(const Options& o, const Common& common) {
         p = perform(world, o.stage, common.quiet);
         impacts = watch.times();
     }
+    const std::span<const float> ring = longest_ring(p, impacts, kLate);
+    const std::vector<plots::Partial> partials = plots::find_partials(ring, p.rate, modes);
     impacts.resize(std::min<std::size_t>(impacts.size(), 5));
 
     dSoftStatus status = {};
@@ -115,7 +156,8 @@ int run(const Options& o, const Common& common) {
         {"critical_step", status.critical_step},
         {"stopped", status.stopped != 0},
         {"impacts", impacts},
-        {"modes", modes}};
+        {"modes", modes},
+        {"partials", as_json(partials)}};
     results.update(as_json(p));
     results["out"] = o.stage.out;
 
