@@ -40,10 +40,6 @@ struct RigidShape {
 
     /// Box that holds the shape; a plane's is unbounded.
     Aabb bounds(const Pose& body_pose) const noexcept;
-
-    /// Largest distance of a point of the shape from its body's centre of mass [m]; infinite for a
-    /// plane. Times the spin it bounds how fast rotation moves the surface.
-    double reach() const noexcept;
 };
 
 /// Takes the snapshot. Geoms with an offset and geoms inside a geom transform are placed as ODE

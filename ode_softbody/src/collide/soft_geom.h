@@ -38,7 +38,7 @@ protected:
 /// The geom is seen by no near callback: its pairs are taken from aabb_test, which then says "no
 /// overlap"; nested spaces are searched from there. Rays alone collide in the ordinary way.
 /// @param client  borrowed until on_destroyed() or destroy_soft_geom().
-/// @throws InputError when ODE has no user class left.
+/// Ends in ODE's dDebug when the application has taken all four user classes.
 dGeomID create_soft_geom(dSpaceID space, SoftGeomClient& client);
 
 /// Destroys the geom without telling its client.
@@ -53,5 +53,9 @@ SoftGeomClient* soft_geom_client(dGeomID geom) noexcept;
 /// Makes the geom meet everything in the topmost space it lies in, for applications that have not
 /// collided their space since the last step. No near callback is involved.
 void collide_now(dGeomID geom) noexcept;
+
+/// ODE is being closed: class numbers start afresh. Without this call the next create_soft_geom()
+/// finds out by itself, by probing the geom class that now has the number.
+void forget_soft_class() noexcept;
 
 } // namespace ode::soft

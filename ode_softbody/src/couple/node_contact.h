@@ -47,7 +47,7 @@ public:
     dGeomID geom() const noexcept { return geom_; }
 
     /// Start of a step. Anchors are kept unless the shape has become another one.
-    /// @param inverse_mass  of every mesh node [1/kg]; nodes that are held (0) take no force.
+    /// @param inverse_mass  of every mesh node [1/kg]; 0: held, so that its mass bounds nothing.
     void begin_step(const RigidShape& shape, const ContactLaw& law,
                     std::span<const double> inverse_mass, double dt) noexcept;
 
@@ -58,30 +58,31 @@ public:
 
     /// Some node bore force in the last substep.
     bool bearing() const noexcept { return bearing_ != 0; }
-    /// Factor that softened the contact in the last substep, to be handed to the next step's
-    /// shadow.
+    /// What a light body's shadow asked of the contact in the last substep, to be handed to the
+    /// shadow of the next step; 1 when nothing bears.
     double softening() const noexcept { return softening_; }
-    /// Elastic energy of penalty and friction springs after the last substep [J].
-    double energy() const noexcept { return energy_; }
 
 private:
     void find_candidates(const NodeArray& position, const NodeArray& velocity,
                          const RigidMotion& motion) noexcept;
+
+    template <class Distance>
+    void sum_forces(Distance distance_of, const NodeArray& position, const NodeArray& velocity,
+                    RigidShadow& rigid, double dt, NodeArray& force) noexcept;
 
     const SurfaceNodes& nodes_;
     dGeomID geom_;
     RigidShape shape_;
     ContactLaw law_;
     // Per surface node:
-    std::vector<double> stiffness_; ///< [N/m], 0: held
-    std::vector<double> damping_;   ///< [N s/m]
-    std::vector<double> anchor_;    ///< xyz in the shape's frame [m]
-    std::vector<std::uint8_t> held_by_anchor_;
-    std::vector<int> candidate_; ///< surface nodes near the shape
-    double look_again_in_ = 0;   ///< [s]
+    std::vector<double> stiffness_;      ///< [N/m]
+    std::vector<double> damping_;        ///< [N s/m]
+    std::vector<Vec3> anchor_;           ///< end of the friction spring, in the shape's frame [m]
+    std::vector<std::uint8_t> anchored_; ///< whether there is one
+    std::vector<int> candidate_;         ///< surface nodes near the shape
+    double look_again_in_ = 0;           ///< [s]
     std::size_t bearing_ = 0;
-    double softening_ = 1;
-    double energy_ = 0;
+    double softening_ = 1; ///< in the last substep
 };
 
 } // namespace ode::soft

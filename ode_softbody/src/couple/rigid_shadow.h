@@ -57,7 +57,7 @@ public:
     /// Factor on contact stiffness and damping that keeps a light body's explicit step stable.
     /// Falls while contacts bear (which can only lose energy).
     double softening() const noexcept { return softening_; }
-    /// Carries the factor on from the step before, for a body that is still in contact.
+    /// A contact that goes on carries its factor from step to step.
     void set_softening(double factor) noexcept { softening_ = factor; }
 
     /// Kick by contact and external forces, then drift.

@@ -1,0 +1,149 @@
+#include "collide/soft_geom.h"
+
+#include <algorithm>
+#include <mutex>
+#include <vector>
+
+namespace ode::soft {
+namespace {
+
+/// ODE's storage behind a user geom; ODE zeroes it.
+struct GeomData {
+    SoftGeomClient* client; ///< nullptr: a probe, or let go
+    bool empty;             ///< the client has no box: the geom meets nothing
+};
+
+std::mutex lock; // guards `live`: worlds may be stepped from several threads
+std::vector<dGeomID>& live_geoms() {
+    static std::vector<dGeomID> live;
+    return live;
+}
+
+int class_number = 0;     ///< 0: not registered
+bool probe_heard = false; ///< see is_registered()
+
+GeomData& data_of(dGeomID geom) noexcept {
+    return *static_cast<GeomData*>(dGeomGetClassData(geom));
+}
+
+void ignore_pair(void*, dGeomID, dGeomID) {}
+
+void compute_aabb(dGeomID geom, dReal box[6]) {
+    GeomData& data = data_of(geom);
+    const Aabb b = data.client ? data.client->aabb() : Aabb::empty();
+    data.empty = b.is_empty() || !b.low.allFinite() || !b.high.allFinite();
+    for (int axis = 0; axis < 3; ++axis) {
+        box[2 * axis] = data.empty ? 0 : b.low[axis];
+        box[2 * axis + 1] = data.empty ? 0 : b.high[axis];
+    }
+}
+
+/// Called by ODE for every geom whose box overlaps, just before the near callback; 0 keeps the pair
+/// from the callback.
+int record_pair(dGeomID self, dGeomID other, dReal*) {
+    const GeomData& data = data_of(self);
+    if (!data.client || data.empty || other == self)
+        return 0;
+    if (dGeomIsSpace(other)) {
+        dSpaceCollide2(self, other, nullptr, &ignore_pair);
+        return 0;
+    }
+    if (dGeomGetClass(other) == dRayClass)
+        return 1;
+    data.client->on_pair(other);
+    return 0;
+}
+
+int collide_with_ray(dGeomID self, dGeomID ray, int flags, dContactGeom* contact, int skip) {
+    SoftGeomClient* client = data_of(self).client;
+    if (client)
+        return client->on_ray(ray, flags, contact, skip);
+    probe_heard = true;
+    return 0;
+}
+
+dColliderFn* collider_with(int other_class) {
+    return other_class == dRayClass ? &collide_with_ray : nullptr;
+}
+
+void forget(dGeomID geom) noexcept {
+    const std::lock_guard guard(lock);
+    std::erase(live_geoms(), geom);
+}
+
+void destroyed(dGeomID geom) {
+    GeomData& data = data_of(geom);
+    forget(geom);
+    if (data.client)
+        data.client->on_destroyed();
+    data.client = nullptr;
+}
+
+/// Class numbers start afresh after dCloseODE, and no getter tells. A geom of our class hears a
+/// ray; one of a number that ODE has forgotten, or given to somebody else, does not.
+bool is_registered() {
+    if (class_number == 0)
+        return false;
+    probe_heard = false;
+    const dGeomID probe = dCreateGeom(class_number);
+    const dGeomID ray = dCreateRay(nullptr, 1);
+    dContactGeom contact;
+    dCollide(probe, ray, 1, &contact, sizeof contact);
+    dGeomDestroy(ray);
+    dGeomDestroy(probe);
+    return probe_heard;
+}
+
+void register_class() {
+    dGeomClass soft{};
+    soft.bytes = sizeof(GeomData);
+    soft.collider = &collider_with;
+    soft.aabb = &compute_aabb;
+    soft.aabb_test = &record_pair;
+    soft.dtor = &destroyed;
+    class_number = dCreateGeomClass(&soft);
+}
+
+} // namespace
+
+dGeomID create_soft_geom(dSpaceID space, SoftGeomClient& client) {
+    if (!is_registered())
+        register_class();
+    const dGeomID geom = dCreateGeom(class_number);
+    data_of(geom) = {&client, false};
+    {
+        const std::lock_guard guard(lock);
+        live_geoms().push_back(geom);
+    }
+    dSpaceAdd(space, geom);
+    return geom;
+}
+
+void destroy_soft_geom(dGeomID geom) noexcept {
+    data_of(geom).client = nullptr;
+    dGeomDestroy(geom);
+}
+
+void mark_moved(dGeomID geom) noexcept {
+    const dReal* p = dGeomGetPosition(geom); // there is no public call but setting it again
+    dGeomSetPosition(geom, p[0], p[1], p[2]);
+}
+
+SoftGeomClient* soft_geom_client(dGeomID geom) noexcept {
+    const std::lock_guard guard(lock);
+    const auto& live = live_geoms();
+    return std::find(live.begin(), live.end(), geom) == live.end() ? nullptr : data_of(geom).client;
+}
+
+void collide_now(dGeomID geom) noexcept {
+    dSpaceID top = dGeomGetSpace(geom);
+    if (!top)
+        return;
+    while (const dSpaceID parent = dGeomGetSpace(reinterpret_cast<dGeomID>(top)))
+        top = parent;
+    dSpaceCollide2(geom, reinterpret_cast<dGeomID>(top), nullptr, &ignore_pair);
+}
+
+void forget_soft_class() noexcept { class_number = 0; }
+
+} // namespace ode::soft

@@ -1,0 +1,164 @@
+#include "couple/node_contact.h"
+
+#include "collide/shape_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ode::soft {
+namespace {
+
+// A contact spring on a node of mass m adds at most k dt^2 / m to dt^2 lambda, which leapfrog with
+// lagged damping keeps stable while dt^2 lambda + 2 dt c / m <= 4. A substep of 0.9 of the critical
+// one leaves 4 - 3.24 = 0.76; the soft side takes 0.324 + 2 * 0.075, a rigid body the rest
+// (rigid_shadow.cpp). Eigenvalues of a sum are bounded by the sum, so this holds for any number of
+// contacts.
+constexpr double kStiffnessShare = 0.1 * 3.24; ///< of k dt^2 / m
+constexpr double kDampingShare = 0.075;        ///< of c dt / m
+
+constexpr double kTangential = 0.7; ///< tangential stiffness to normal, near Mindlin's for nu = 0.3
+
+// Nodes within this many mean edges of the shape are candidates.
+constexpr double kReach = 0.5;
+// How far nodes may get before they are looked at anew: elastic waves may make them kHaste times
+// as fast as the fastest is now, free bodies may accelerate by kAcceleration.
+constexpr double kHaste = 4;
+constexpr double kAcceleration = 1000; ///< [m/s^2]
+
+std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+
+bool same_shape(const RigidShape& a, const RigidShape& b) noexcept {
+    return a.kind == b.kind && a.size == b.size && a.body == b.body;
+}
+
+/// Shortens v to at most `most`. @return whether it had to.
+bool clamp(Vec3& v, double most) noexcept {
+    const double length2 = v.squaredNorm();
+    if (!(length2 > most * most))
+        return false;
+    v *= most / std::sqrt(length2);
+    return true;
+}
+
+} // namespace
+
+NodeContact::NodeContact(const SurfaceNodes& nodes, dGeomID geom)
+    : nodes_(nodes), geom_(geom), stiffness_(nodes.node.size()), damping_(nodes.node.size()),
+      anchor_(nodes.node.size(), Vec3::Zero()), anchored_(nodes.node.size(), 0) {
+    candidate_.reserve(nodes.node.size());
+}
+
+void NodeContact::begin_step(const RigidShape& shape, const ContactLaw& law,
+                             std::span<const double> inverse_mass, double dt) noexcept {
+    if (!same_shape(shape, shape_)) {
+        std::fill(anchored_.begin(), anchored_.end(), std::uint8_t{0});
+        bearing_ = 0;
+        softening_ = 1;
+    }
+    shape_ = shape;
+    law_ = law;
+    const double bearable = kStiffnessShare / (dt * dt); // [1/s^2]
+    const double kappa = law.stiffness > 0 ? law.stiffness : bearable * nodes_.mass_per_area;
+    for (std::size_t i = 0; i < stiffness_.size(); ++i) {
+        const bool held = inverse_mass[index(nodes_.node[i])] == 0;
+        const double most = held ? std::numeric_limits<double>::infinity() : nodes_.mass[i];
+        stiffness_[i] = std::fmin(kappa * nodes_.area[i], bearable * most);
+        damping_[i] = std::fmin(stiffness_[i] * law.damping, kDampingShare * most / dt);
+    }
+    look_again_in_ = 0;
+}
+
+void NodeContact::find_candidates(const NodeArray& position, const NodeArray& velocity,
+                                  const RigidMotion& motion) noexcept {
+    const Pose pose = shape_.pose.in(motion.pose);
+    const double reach = kReach * nodes_.mean_edge;
+    double nearest = std::numeric_limits<double>::infinity(); // of those left out
+    double fastest2 = 0;
+    candidate_.clear();
+    for (std::size_t i = 0; i < nodes_.node.size(); ++i) {
+        const auto x = position[index(nodes_.node[i])];
+        const Vec3 slip = velocity[index(nodes_.node[i])] - motion.velocity_at(x);
+        fastest2 = std::fmax(fastest2, slip.squaredNorm());
+        const double distance = shape_.distance(pose.to_local(x)).distance;
+        if (distance < reach)
+            candidate_.push_back(static_cast<int>(i));
+        else
+            nearest = std::fmin(nearest, distance);
+    }
+    look_again_in_ =
+        nearest / (kHaste * std::sqrt(fastest2) + std::sqrt(kAcceleration * nearest / 2));
+}
+
+ContactTally NodeContact::add_force(const NodeArray& position, const NodeArray& velocity,
+                                    RigidShadow& rigid, double dt, NodeArray& force) noexcept {
+    ContactTally tally;
+    if (look_again_in_ <= 0) {
+        find_candidates(position, velocity, rigid.motion());
+        tally.tests += nodes_.node.size();
+    }
+    look_again_in_ -= dt;
+    bearing_ = 0;
+    if (!candidate_.empty())
+        with_distance(shape_.kind, [&](auto distance_of) {
+            sum_forces(distance_of, position, velocity, rigid, dt, force);
+        });
+    tally.tests += candidate_.size();
+    tally.bearing = bearing_;
+    softening_ = bearing_ == 0 ? 1 : rigid.softening();
+    return tally;
+}
+
+template <class Distance>
+void NodeContact::sum_forces(Distance distance_of, const NodeArray& position,
+                             const NodeArray& velocity, RigidShadow& rigid, double dt,
+                             NodeArray& force) noexcept {
+    const RigidMotion& motion = rigid.motion();
+    const Pose pose = shape_.pose.in(motion.pose);
+    const double soft = rigid.softening();
+    Wrench reaction;
+    double load = 0;
+    for (const int i : candidate_) {
+        const std::size_t n = index(nodes_.node[index(i)]);
+        const Vec3 x = position[n];
+        const Vec3 local = pose.to_local(x);
+        const SurfaceDistance gap = distance_of(shape_.size, local);
+        if (gap.distance >= 0) {
+            anchored_[index(i)] = 0;
+            continue;
+        }
+        const Vec3 normal = pose.rotation * gap.normal;
+        const Vec3 slip = velocity[n] - motion.velocity_at(x);
+        const double k = soft * stiffness_[index(i)];
+        const double c = soft * damping_[index(i)];
+        const double parting = slip.dot(normal);
+        const double press = std::fmax(0, -k * gap.distance - c * parting);
+
+        Vec3& anchor = anchor_[index(i)];
+        if (!anchored_[index(i)]) {
+            anchored_[index(i)] = 1;
+            anchor = local;
+        }
+        const double grip = law_.friction * press;
+        Vec3 stretch = local - anchor;
+        stretch -= gap.normal.dot(stretch) * gap.normal;
+        if (clamp(stretch, grip / (kTangential * k)))
+            anchor = local - stretch;
+        Vec3 f = pose.rotation * (-kTangential * k * stretch) -
+                 kTangential * c * (slip - parting * normal);
+        clamp(f, grip);
+        f += press * normal;
+
+        force[n] += f;
+        reaction.force -= f;
+        reaction.torque -= (x - motion.pose.position).cross(f);
+        load += (k * dt + 2 * c) * dt * rigid.compliance(x, normal);
+        ++bearing_;
+    }
+    if (bearing_ == 0)
+        return;
+    rigid.add(reaction);
+    rigid.add_load(load);
+}
+
+} // namespace ode::soft

@@ -1,0 +1,177 @@
+#include "couple/rigid_shadow.h"
+
+#include <cmath>
+
+namespace ode::soft {
+namespace {
+
+// Explicit leapfrog with lagged damping is stable while dt^2 lambda + 2 dt c/m <= 4. A soft body at
+// 0.9 of its critical step uses 3.24, its own side of the contacts 0.1 * 3.24 + 2 * 0.075 (see
+// node_contact.cpp): 0.28 is left for the rigid side.
+constexpr double kRigidBudget = 0.28;
+
+Vec3 vec(const dReal* v) noexcept { return {v[0], v[1], v[2]}; }
+
+/// Turns by `rotation` [rad] about its direction, in the world's frame.
+Quat turned(const Quat& from, const Vec3& rotation) noexcept {
+    const double half = rotation.norm() / 2;
+    // sin(half)/half to second order is exact in double below 1e-4
+    const double sinc = half > 1e-4 ? std::sin(half) / half : 1 - half * half / 6;
+    const Vec3 axis = sinc / 2 * rotation;
+    return Quat(std::cos(half), axis.x(), axis.y(), axis.z()) * from;
+}
+
+} // namespace
+
+RigidShadow::RigidShadow(dBodyID body, double h, double dt) noexcept
+    : body_(body), h_(h), last_dt_(dt) {
+    if (!body)
+        return;
+    const dReal* q = dBodyGetQuaternion(body);
+    orientation_ = Quat(q[0], q[1], q[2], q[3]);
+    motion_.pose.position = vec(dBodyGetPosition(body));
+    motion_.velocity = vec(dBodyGetLinearVel(body));
+    motion_.spin = vec(dBodyGetAngularVel(body));
+    if (dBodyIsKinematic(body)) {
+        role_ = RigidRole::prescribed;
+        motion_.pose.rotation = orientation_.toRotationMatrix();
+        return;
+    }
+    role_ = dBodyGetNumJoints(body) == 0 ? RigidRole::free : RigidRole::jointed;
+    asleep_ = !dBodyIsEnabled(body);
+    gyroscopic_ = dBodyGetGyroscopicMode(body);
+    max_spin_ = dBodyGetMaxAngularSpeed(body);
+
+    dMass mass;
+    dBodyGetMass(body, &mass);
+    inverse_mass_ = 1 / mass.mass;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            inertia_(i, j) = mass.I[4 * i + j];
+    inverse_inertia_ = inertia_.inverse();
+    if (dBodyGetGravityMode(body)) {
+        dVector3 g;
+        dWorldGetGravity(dBodyGetWorld(body), g);
+        external_.force = mass.mass * vec(g);
+    }
+    external_.force += vec(dBodyGetForce(body));
+    external_.torque = vec(dBodyGetTorque(body));
+
+    const Mat3 r = orientation_.toRotationMatrix();
+    momentum_ = mass.mass * motion_.velocity;
+    angular_momentum_ = r * (inertia_ * (r.transpose() * motion_.spin));
+    if (!asleep_)
+        kick(external_.force, external_.torque, (h - dt) / 2);
+    update_motion();
+}
+
+void RigidShadow::add(const Wrench& reaction) noexcept {
+    contact_.force += reaction.force;
+    contact_.torque += reaction.torque;
+    touched_ = true;
+}
+
+double RigidShadow::compliance(const Vec3& point, const Vec3& normal) const noexcept {
+    const Vec3 lever = (point - motion_.pose.position).cross(normal);
+    return inverse_mass_ + lever.dot(inverse_inertia_world_ * lever);
+}
+
+void RigidShadow::advance(double dt) noexcept {
+    if (role_ == RigidRole::fixed)
+        return;
+    if (role_ == RigidRole::prescribed) {
+        impulse_.force += dt * contact_.force;
+        impulse_.torque += dt * contact_.torque;
+        contact_ = {};
+        motion_.pose.position += dt * motion_.velocity;
+        orientation_ = turned(orientation_, dt * motion_.spin);
+        motion_.pose.rotation = orientation_.toRotationMatrix();
+        return;
+    }
+    if (asleep_) {
+        if (!touched_)
+            return;
+        asleep_ = false;
+        kick(external_.force, external_.torque, (h_ - dt) / 2);
+    }
+    impulse_.force += dt * contact_.force;
+    impulse_.torque += dt * contact_.torque;
+    kick(external_.force + contact_.force, external_.torque + contact_.torque, dt);
+    drift(dt);
+    update_motion();
+    contact_ = {};
+    softening_ = load_ == 0 ? 1 : softening_ * std::fmin(1, kRigidBudget / load_);
+    load_ = 0;
+    last_dt_ = dt;
+}
+
+void RigidShadow::kick(const Vec3& force, const Vec3& torque, double dt) noexcept {
+    momentum_ += dt * force;
+    angular_momentum_ += dt * torque;
+}
+
+Vec3 RigidShadow::spin_of(const Quat& orientation) const noexcept {
+    const Mat3 r = orientation.toRotationMatrix();
+    return r * (inverse_inertia_ * (r.transpose() * angular_momentum_));
+}
+
+void RigidShadow::drift(double dt) noexcept {
+    motion_.pose.position += dt * inverse_mass_ * momentum_;
+    Vec3 spin = spin_of(orientation_);
+    const double speed = spin.norm();
+    if (speed > max_spin_) { // as dBodySetMaxAngularSpeed
+        spin *= max_spin_ / speed;
+        angular_momentum_ *= max_spin_ / speed;
+    }
+    if (gyroscopic_) {
+        const Vec3 midpoint = spin_of(turned(orientation_, dt / 2 * spin));
+        orientation_ = turned(orientation_, dt * midpoint).normalized();
+        return;
+    }
+    // Without the gyroscopic term it is the spin that stays, as under ODE.
+    orientation_ = turned(orientation_, dt * spin).normalized();
+    const Mat3 r = orientation_.toRotationMatrix();
+    angular_momentum_ = r * (inertia_ * (r.transpose() * spin));
+}
+
+void RigidShadow::update_motion() noexcept {
+    const Mat3 r = orientation_.toRotationMatrix();
+    inverse_inertia_world_ = r * inverse_inertia_ * r.transpose();
+    motion_.pose.rotation = r;
+    motion_.velocity = inverse_mass_ * momentum_;
+    motion_.spin = inverse_inertia_world_ * angular_momentum_;
+}
+
+void RigidShadow::hand_over() noexcept {
+    if (!touched_ || role_ == RigidRole::fixed || role_ == RigidRole::prescribed)
+        return;
+    dBodyEnable(body_); // a sleeping body would hoard the force until it wakes
+    if (role_ == RigidRole::jointed) {
+        const Vec3 f = impulse_.force / h_;
+        const Vec3 t = impulse_.torque / h_;
+        dBodyAddForce(body_, f.x(), f.y(), f.z());
+        dBodyAddTorque(body_, t.x(), t.y(), t.z());
+    }
+}
+
+void RigidShadow::write_back() noexcept {
+    if (!touched_ || role_ != RigidRole::free)
+        return;
+    kick(external_.force, external_.torque, -(h_ - last_dt_) / 2);
+    update_motion();
+    Vec3 v = motion_.velocity;
+    Vec3 w = motion_.spin;
+    // ODE damps once a step, after moving; its thresholds are speeds.
+    if (v.norm() > dBodyGetLinearDampingThreshold(body_))
+        v *= 1 - dBodyGetLinearDamping(body_);
+    if (w.norm() > dBodyGetAngularDampingThreshold(body_))
+        w *= 1 - dBodyGetAngularDamping(body_);
+    const Vec3& x = motion_.pose.position;
+    const dQuaternion q{orientation_.w(), orientation_.x(), orientation_.y(), orientation_.z()};
+    dBodySetPosition(body_, x.x(), x.y(), x.z());
+    dBodySetQuaternion(body_, q);
+    dBodySetLinearVel(body_, v.x(), v.y(), v.z());
+    dBodySetAngularVel(body_, w.x(), w.y(), w.z());
+}
+
+} // namespace ode::soft
