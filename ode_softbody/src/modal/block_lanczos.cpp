@@ -49,7 +49,8 @@ public:
         multiply_mass(system_, next_, image);
         factor_.solve(image);
         next_ = image;
-        coupling_ = orthonormalise(next_, nullptr);
+        project(next_, nullptr);
+        coupling_ = orthonormalise(next_, 0.0);
     }
 
     EigenPairs run() {
@@ -85,25 +86,29 @@ private:
             *h += c;
     }
 
-    /// Mass-orthonormal basis of the columns of w, orthogonal to everything known; columns that are
-    /// nothing but rounding go. @return R with w_before = w_after R.
-    MatrixXd orthonormalise(RowMatrix& w, const VectorXd* scale) {
+    /// Mass-orthonormal basis of the columns of w, which are orthogonal to everything known up to
+    /// rounding; columns shorter than `floor` go. Normalising magnifies what rounding left, so the
+    /// projection is repeated until nothing is.
+    /// @return R with w_before = w_after R.
+    MatrixXd orthonormalise(RowMatrix& w, double floor) {
         MatrixXd r = MatrixXd::Identity(w.cols(), w.cols());
-        for (int pass = 0; pass < 3; ++pass) {
-            project(w, nullptr);
+        for (int pass = 0; pass < 4; ++pass) {
+            if (pass > 0)
+                project(w, nullptr);
             multiply_mass(system_, w, image_);
             const MatrixXd gram = w.transpose() * image_;
+            if (pass > 0 && (gram - MatrixXd::Identity(w.cols(), w.cols())).norm() < 1e-13)
+                break;
             const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(gram);
-            const double floor =
-                pass > 0 ? 0.25 : scale ? 1e-24 * (*scale)[0] * (*scale)[0] : 0.0;
             Index drop = 0;
-            while (drop < gram.cols() && !(eigen.eigenvalues()[drop] > floor))
+            while (drop < gram.cols() && !(eigen.eigenvalues()[drop] > floor * floor))
                 ++drop;
             const Index keep = gram.cols() - drop;
             const VectorXd root = eigen.eigenvalues().tail(keep).cwiseSqrt();
             const MatrixXd q = eigen.eigenvectors().rightCols(keep);
             w = (w * (q * root.cwiseInverse().asDiagonal())).eval();
             r = (root.asDiagonal() * q.transpose() * r).eval();
+            floor = 0.5; // a column that shrinks that much again was rounding
         }
         return r;
     }
@@ -129,11 +134,11 @@ private:
         h_.block(first, 0, width, size_) = h.transpose();
         h_.block(first, first, width, width) =
             0.5 * (h.bottomRows(width) + h.bottomRows(width).transpose());
-        const VectorXd scale = VectorXd::Constant(1, h_.topLeftCorner(size_, size_).diagonal().maxCoeff());
         next_ = std::move(w);
         if (size_ == system_.size() - deflated_.cols())
             next_.resize(system_.size(), 0);
-        coupling_ = next_.cols() > 0 ? orthonormalise(next_, &scale) : MatrixXd::Zero(0, width);
+        const double floor = 1e-12 * h_.topLeftCorner(size_, size_).diagonal().maxCoeff();
+        coupling_ = next_.cols() > 0 ? orthonormalise(next_, floor) : MatrixXd::Zero(0, width);
         last_width_ = width;
     }
 

@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ode::soft {
 namespace {
 
 using Eigen::Index;
 
-/// Nodes that some element uses; TetMesh may hold others.
 void check_options(const TetMesh& mesh, const ModalOptions& options) {
     if (mesh.element_count() == 0)
         throw InputError("the mesh has no tetrahedra: there is nothing to vibrate");
@@ -26,6 +26,21 @@ void check_options(const TetMesh& mesh, const ModalOptions& options) {
                          "against the bounds of the mesh");
 }
 
+/// Makes the largest component positive; of components equal to six digits the first decides, so
+/// that rounding doesn't.
+void fix_sign(double* shape, std::size_t size) {
+    double most = 0;
+    for (std::size_t i = 0; i < size; ++i)
+        most = std::max(most, std::abs(shape[i]));
+    std::size_t first = 0;
+    while (first < size && std::abs(shape[first]) < (1 - 1e-6) * most)
+        ++first;
+    if (first < size && shape[first] < 0)
+        for (std::size_t i = 0; i < size; ++i)
+            shape[i] = -shape[i];
+}
+
+/// Upper range of K's diagonal against M's [1/s^2].
 double largest_ratio(const BlockSystem& s) {
     double most = 0;
     for (std::size_t i = 0; i < s.node_count(); ++i)
@@ -95,27 +110,96 @@ EigenPairs ModalProblem::solve(Index guards) {
     };
     EigenPairs pairs = lowest_pairs(system_, *factor_, shift_, rigid_, lanczos);
 
-    // By Sylvester's law of inertia K - sigma M has as many negative pivots as there are
-    // eigenvalues below sigma. A miss is looked for again, away from all that is known.
-    for (int attempt = 0; options_.verify && attempt < 3; ++attempt) {
-        tell("verify", 0, static_cast<std::size_t>(pairs.value.size()));
-        const double last = pairs.value.size() ? pairs.value[pairs.value.size() - 1] : 0.0;
-        const double sigma = 0.5 * (last + pairs.beyond);
-        BlockFactor counter(*factor_, BlockFactor::kSymbolic);
-        counter.factorise(system_, -sigma, false, step);
-        const Index missing =
-            counter.negative_pivots() - rigid_.cols() - pairs.value.size();
-        if (missing <= 0 || !(pairs.beyond > last * (1 + 1e-9)))
-            break;
-        RowMatrix known(system_.size(), rigid_.cols() + pairs.vector.cols());
-        known << rigid_, pairs.vector;
-        lanczos.upper = std::min(lanczos.upper, sigma);
-        lanczos.max_pairs = 0;
-        const EigenPairs more = lowest_pairs(system_, *factor_, shift_, known, lanczos,
-                                             static_cast<unsigned>(attempt) + 2);
-        merge(pairs, more);
+    for (unsigned attempt = 2; options_.verify && attempt < 5 && verify(pairs, attempt, lanczos);
+         ++attempt) {
     }
+
+    // What has no energy although it isn't a rigid motion of a part: parts hinged at a node or an
+    // edge. The bound is a thousandth of the shift, a thousand times its rounding.
+    const Index idle = (pairs.value.array() < 1e-3 * shift_).count();
+    rigid_modes_ = static_cast<int>(rigid_.cols() + idle);
+    pairs.value = pairs.value.tail(pairs.value.size() - idle).eval();
+    pairs.vector = pairs.vector.rightCols(pairs.value.size()).eval();
     return pairs;
+}
+
+/// By Sylvester's law of inertia K - sigma M has as many negative pivots as there are eigenvalues
+/// below sigma. What is missing is looked for away from all that is known.
+/// @return true if something was missing.
+bool ModalProblem::verify(EigenPairs& pairs, unsigned seed, LanczosOptions lanczos) {
+    tell("verify", 0, static_cast<std::size_t>(pairs.value.size()));
+    const double last = pairs.value.size() ? pairs.value[pairs.value.size() - 1] : 0.0;
+    if (!(pairs.beyond > last * (1 + 1e-9)))
+        return false; // the limit on the number cuts between equal pairs
+    const double sigma = 0.5 * (last + pairs.beyond);
+    factor_->factorise(system_, -sigma, false, [&](double share) {
+        return tell("verify", share, static_cast<std::size_t>(pairs.value.size())), true;
+    });
+    if (factor_->negative_pivots() <= rigid_.cols() + pairs.value.size())
+        return false;
+    RowMatrix known(system_.size(), rigid_.cols() + pairs.vector.cols());
+    known << rigid_, pairs.vector;
+    lanczos.upper = std::min(lanczos.upper, sigma);
+    lanczos.max_pairs = 0;
+    const EigenPairs more = lowest_pairs(system_, *factor_, shift_, known, lanczos, seed);
+    if (more.value.size() == 0)
+        return false;
+    std::vector<std::pair<double, Index>> sorted;
+    const Index old = pairs.value.size(), all = old + more.value.size();
+    for (Index i = 0; i < all; ++i)
+        sorted.emplace_back(i < old ? pairs.value[i] : more.value[i - old], i);
+    std::sort(sorted.begin(), sorted.end());
+    EigenPairs merged;
+    merged.complete = pairs.complete;
+    merged.beyond = pairs.beyond;
+    merged.value.resize(all);
+    merged.vector.resize(system_.size(), all);
+    for (Index k = 0; k < all; ++k) {
+        const auto [value, i] = sorted[static_cast<std::size_t>(k)];
+        merged.value[k] = value;
+        merged.vector.col(k) = (i < old ? std::as_const(pairs) : more).vector.col(i < old ? i : i - old);
+    }
+    pairs = std::move(merged);
+    return true;
+}
+
+ModalModel ModalProblem::model(const EigenPairs& pairs) const {
+    ModalModel out;
+    out.body = mass_properties(mesh_, solids_);
+    out.node_count = mesh_.node.size();
+    out.rigid_modes = rigid_modes_;
+    out.complete = pairs.complete;
+    const auto modes = static_cast<std::size_t>(pairs.value.size());
+    out.frequency.resize(modes);
+    out.shape.assign(modes * 3 * out.node_count, 0.0);
+    std::vector<int> row(map_.node_count(), -1);
+    int next = 0;
+    for (std::size_t i = 0; i < row.size(); ++i)
+        if (free_[i])
+            row[i] = 3 * next++;
+    RowMatrix x, kx, mx;
+    constexpr Index kAtOnce = 8;
+    for (Index first = 0; first < pairs.value.size(); first += kAtOnce) {
+        x = pairs.vector.middleCols(first, std::min(kAtOnce, pairs.value.size() - first));
+        multiply_stiffness(system_, x, kx);
+        multiply_mass(system_, x, mx);
+        for (Index c = 0; c < x.cols(); ++c) {
+            const double mass = x.col(c).dot(mx.col(c));
+            const auto mode = static_cast<std::size_t>(first + c);
+            out.frequency[mode] = frequency_of(x.col(c).dot(kx.col(c)) / mass);
+            double* shape = out.shape.data() + mode * 3 * out.node_count;
+            const Eigen::VectorXd u = x.col(c) / std::sqrt(mass);
+            for (std::size_t i = 0; i < out.node_count; ++i)
+                for (int t = map_.mesh_start[i]; t < map_.mesh_start[i + 1]; ++t) {
+                    const auto& [node, weight] = map_.mesh_term[static_cast<std::size_t>(t)];
+                    if (const int r = row[static_cast<std::size_t>(node)]; r >= 0)
+                        for (int axis = 0; axis < 3; ++axis)
+                            shape[3 * i + static_cast<std::size_t>(axis)] += weight * u[r + axis];
+                }
+            fix_sign(shape, 3 * out.node_count);
+        }
+    }
+    return out;
 }
 
 } // namespace ode::soft

@@ -3,6 +3,7 @@
 #include "modal/block_lanczos.h"
 #include "modal/solve_modes.h"
 
+#include <cmath>
 #include <memory>
 #include <numbers>
 
@@ -31,6 +32,7 @@ public:
     int rigid_modes() const noexcept { return rigid_modes_; }
 
 private:
+    bool verify(EigenPairs& pairs, unsigned seed, LanczosOptions lanczos);
     void tell(const char* stage, double share, std::size_t modes = 0) const;
 
     const TetMesh& mesh_;

@@ -1,6 +1,5 @@
 #include "modal/solve_modes.h"
 
-#include "base/error.h"
 #include "modal/modal_problem.h"
 
 namespace ode::soft {
