@@ -134,10 +134,10 @@ void lump(ElementIntegrals& element, int n) {
 } // namespace
 
 void check_solids(const TetMesh& mesh, std::span<const Solid> solids) {
-    const auto wanted = mesh.group.empty() ? std::size_t{1}
-                                           : static_cast<std::size_t>(*std::max_element(
-                                                 mesh.group.begin(), mesh.group.end())) +
-                                                 1;
+    const auto wanted =
+        mesh.group.empty()
+            ? std::size_t{1}
+            : static_cast<std::size_t>(*std::max_element(mesh.group.begin(), mesh.group.end())) + 1;
     if (solids.size() < wanted)
         throw InputError(format("the mesh has %zu groups of elements but %zu materials were given: "
                                 "give one for each group",
@@ -193,8 +193,7 @@ BlockSystem assemble(const TetMesh& mesh, const DofMap& map, std::span<const Sol
                 Mat3 g = element.outer[pair++];
                 if (a == b)
                     g = (0.5 * (g + g.transpose())).eval(); // symmetric to the last bit
-                const Mat3 k =
-                    lambda * g + mu * (g.transpose() + g.trace() * Mat3::Identity());
+                const Mat3 k = lambda * g + mu * (g.transpose() + g.trace() * Mat3::Identity());
                 const int i = nodes[static_cast<std::size_t>(a)];
                 const int j = nodes[static_cast<std::size_t>(b)];
                 const std::size_t ij = pair_index(s, i, j);

@@ -15,10 +15,10 @@ enum class MassKind {
 
 /// Mass, volume and inertia of a body by quadrature over its elements.
 struct MassProperties {
-    double mass = 0;                ///< [kg]
-    double volume = 0;              ///< [m^3]
-    Vec3 centre = Vec3::Zero();     ///< centre of mass [m]
-    Mat3 inertia = Mat3::Zero();    ///< about the centre of mass, mesh axes [kg m^2]
+    double mass = 0;             ///< [kg]
+    double volume = 0;           ///< [m^3]
+    Vec3 centre = Vec3::Zero();  ///< centre of mass [m]
+    Mat3 inertia = Mat3::Zero(); ///< about the centre of mass, mesh axes [kg m^2]
 };
 
 /// Refuses what has no modes: E or density not positive, Poisson's ratio outside (-1, 0.5), a group

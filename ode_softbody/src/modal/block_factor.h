@@ -11,8 +11,8 @@ namespace ode::soft {
 /// the pieces of a dissection: dense blocks throughout, so that it runs at the speed of dense
 /// algebra, five to ten times Eigen's simplicial Cholesky at 20 000 unknowns.
 ///
-/// D isn't pivoted: safe for shift >= 0 on a body without free motion, and for shift < 0 good enough
-/// to count the eigenvalues below -shift, unless one of them is hit to ten digits.
+/// D isn't pivoted: safe for shift >= 0 on a body without free motion, and for shift < 0 good
+/// enough to count the eigenvalues below -shift, unless one of them is hit to ten digits.
 class BlockFactor {
 public:
     /// Symbolic part. `system` is borrowed for the call only.
@@ -30,16 +30,16 @@ public:
     /// Overwrites x with (K + shift M)^-1 x.
     void solve(RowMatrix& x) const;
 
-    double factor_entries() const noexcept { return entries_; }   ///< numbers stored
-    double factor_flops() const noexcept { return flops_; }       ///< multiplications and additions
+    double factor_entries() const noexcept { return entries_; } ///< numbers stored
+    double factor_flops() const noexcept { return flops_; }     ///< multiplications and additions
 
 private:
     struct Front {
-        int first, last;             ///< own nodes, by position in the order
-        std::vector<int> boundary;   ///< later positions that the front touches, ascending
+        int first, last;           ///< own nodes, by position in the order
+        std::vector<int> boundary; ///< later positions that the front touches, ascending
         std::vector<int> child;
-        Eigen::MatrixXd own;         ///< unit lower L11, with D on its diagonal
-        Eigen::MatrixXd below;       ///< L21
+        Eigen::MatrixXd own;   ///< unit lower L11, with D on its diagonal
+        Eigen::MatrixXd below; ///< L21
     };
     Eigen::MatrixXd gather(const BlockSystem& system, double shift, const Front& front,
                            std::vector<Eigen::MatrixXd>& update) const;

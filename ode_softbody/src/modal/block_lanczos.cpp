@@ -36,9 +36,8 @@ public:
             const RowMatrix& deflated, const LanczosOptions& options, unsigned seed)
         : system_(system), factor_(factor), shift_(shift), deflated_(deflated), options_(options) {
         const Index size = system.size() - deflated.cols();
-        const auto affordable = static_cast<Index>(options.basis_bytes /
-                                                   (sizeof(double) *
-                                                    static_cast<std::size_t>(system.size() + 1)));
+        const auto affordable = static_cast<Index>(
+            options.basis_bytes / (sizeof(double) * static_cast<std::size_t>(system.size() + 1)));
         capacity_ = std::min(size, std::max<Index>(affordable, 8 * kBlock));
         wanted_limit_ = capacity_ == size ? size : (3 * capacity_) / 5;
         if (options.max_pairs > 0)
@@ -161,7 +160,8 @@ private:
         }
         // The next pair beyond shows, to a per cent, that the band ends where it seems to.
         const Index next = size_ - 1 - wanted_;
-        const bool closed = next_.cols() == 0 || (next >= 0 && residual(next) <= 1e-2 * theta[next]);
+        const bool closed =
+            next_.cols() == 0 || (next >= 0 && residual(next) <= 1e-2 * theta[next]);
         if (options_.progress &&
             !options_.progress(converged_, wanted_ ? static_cast<double>(converged_) /
                                                          static_cast<double>(wanted_)

@@ -6,8 +6,9 @@
 
 namespace ode::soft {
 
-/// A block of vectors, one row a degree of freedom (xyz of node 0, node 1, ...), one column a vector.
-/// Rows are contiguous: sparse products and solves read a node's share of all vectors at once.
+/// A block of vectors, one row a degree of freedom (xyz of node 0, node 1, ...), one column a
+/// vector. Rows are contiguous: sparse products and solves read a node's share of all vectors at
+/// once.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Stiffness and mass of a linear elastic body at rest on one node-pair pattern. Both triangles are

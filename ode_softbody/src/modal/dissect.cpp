@@ -51,16 +51,15 @@ public:
                 out.push_back(i);
         }
         for (const int i : left)
-            for_each_cut(i, [&](int j) {
-                match[at(i)] = match[at(j)] = -1;
-            });
+            for_each_cut(i, [&](int j) { match[at(i)] = match[at(j)] = -1; });
         return out;
     }
 
 private:
     static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-    template <class Visit> void for_each_cut(int i, Visit visit) const {
+    template <class Visit>
+    void for_each_cut(int i, Visit visit) const {
         for (int p = system_.start[at(i)]; p < system_.start[at(i) + 1]; ++p)
             if (const int j = system_.column[at(p)]; side_[at(j)] == high_)
                 visit(j);
@@ -211,9 +210,9 @@ private:
             // Rounded, so that nodes of one lattice plane tie and the later keys order them.
             place.push_back({x[axis], x[(axis + 2) % 3], x[(axis + 1) % 3], i});
         }
-        const auto [least, most] = std::minmax_element(
-            place.begin(), place.end(),
-            [](const Place& a, const Place& b) { return a.along < b.along; });
+        const auto [least, most] =
+            std::minmax_element(place.begin(), place.end(),
+                                [](const Place& a, const Place& b) { return a.along < b.along; });
         const double grain = 1e-6 * (most->along - least->along) + 1e-300;
         for (Place& p : place) {
             p.along = std::round(p.along / grain);

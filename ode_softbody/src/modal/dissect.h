@@ -19,8 +19,8 @@ struct Dissection {
 
 /// Cuts the node graph where it is thinnest across its longer principal axes. The cut plane runs
 /// through the median node; the separator is a minimum vertex cover of the edges it cuts (Koenig's
-/// theorem), so on quadratic and cubic elements it follows element faces. Geometry gives cuts of the
-/// quality of a graph partitioner on the compact or thin solids of this library without another
+/// theorem), so on quadratic and cubic elements it follows element faces. Geometry gives cuts of
+/// the quality of a graph partitioner on the compact or thin solids of this library without another
 /// dependency. Deterministic.
 Dissection dissect(const BlockSystem& system);
 

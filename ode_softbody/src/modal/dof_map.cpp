@@ -95,13 +95,13 @@ DofMap number_nodes(const TetMesh& mesh, int order) {
     for (std::size_t e = 0; e < elements; ++e) {
         const auto n = mesh.nodes_of(e);
         for (int i = 0; i < 4; ++i)
-            map.element.push_back(
-                corner[static_cast<std::size_t>(n[static_cast<std::size_t>(i)])]);
+            map.element.push_back(corner[static_cast<std::size_t>(n[static_cast<std::size_t>(i)])]);
         if (order > 1)
             for (const auto& [i, j] : kTetEdge) {
                 const int a = n[static_cast<std::size_t>(i)], b = n[static_cast<std::size_t>(j)];
                 const int base = next + per_edge * index_of(edges, key_of(a, b));
-                for (int k = 0; k < per_edge; ++k) // counted from the lower corner, in every element
+                for (int k = 0; k < per_edge;
+                     ++k) // counted from the lower corner, in every element
                     map.element.push_back(base + (a < b ? k : per_edge - 1 - k));
             }
         if (order > 2)
@@ -119,8 +119,9 @@ DofMap number_nodes(const TetMesh& mesh, int order) {
             map.position[static_cast<std::size_t>(own[i])] = x;
         }
     }
-    express(map, mesh.order, mesh.node.size(), [&](std::size_t e) { return mesh.nodes_of(e); },
-            map.mesh_start, map.mesh_term);
+    express(
+        map, mesh.order, mesh.node.size(), [&](std::size_t e) { return mesh.nodes_of(e); },
+        map.mesh_start, map.mesh_term);
     return map;
 }
 
@@ -165,8 +166,9 @@ std::vector<char> clamped_nodes(const TetMesh& mesh, const DofMap& map,
 
 Prolongation prolongate(const DofMap& coarse, const DofMap& fine) {
     Prolongation out;
-    express(coarse, fine.order, fine.node_count(), [&](std::size_t e) { return fine.nodes_of(e); },
-            out.start, out.term);
+    express(
+        coarse, fine.order, fine.node_count(), [&](std::size_t e) { return fine.nodes_of(e); },
+        out.start, out.term);
     return out;
 }
 

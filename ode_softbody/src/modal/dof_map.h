@@ -34,8 +34,8 @@ struct DofMap {
 
 DofMap number_nodes(const TetMesh& mesh, int order);
 
-/// Where the linear functions vanish that are zero at the given mesh nodes: a corner in the list, an
-/// edge or face all of whose corners (and, on a quadratic mesh, mid nodes) are. One flag a node.
+/// Where the linear functions vanish that are zero at the given mesh nodes: a corner in the list,
+/// an edge or face all of whose corners (and, on a quadratic mesh, mid nodes) are. One flag a node.
 /// @throws InputError for an index outside the mesh.
 std::vector<char> clamped_nodes(const TetMesh& mesh, const DofMap& map,
                                 std::span<const int> mesh_nodes);

@@ -14,7 +14,8 @@ namespace {
 /// Derivatives with respect to the four barycentric coordinates, taken as independent.
 using Gradient4 = Eigen::Vector4d;
 
-template <class Emit> void each_function(int order, const Barycentric& l, Emit emit) {
+template <class Emit>
+void each_function(int order, const Barycentric& l, Emit emit) {
     const auto unit = [](int i, double d) {
         Gradient4 g = Gradient4::Zero();
         g[i] = d;
@@ -46,8 +47,8 @@ template <class Emit> void each_function(int order, const Barycentric& l, Emit e
         }
     for (const auto& face : kTetFace) {
         const int a = face[0], b = face[1], c = face[2];
-        emit(27 * l[a] * l[b] * l[c], unit(a, 27 * l[b] * l[c]) + unit(b, 27 * l[a] * l[c]) +
-                                          unit(c, 27 * l[a] * l[b]));
+        emit(27 * l[a] * l[b] * l[c],
+             unit(a, 27 * l[b] * l[c]) + unit(b, 27 * l[a] * l[c]) + unit(c, 27 * l[a] * l[b]));
     }
 }
 
@@ -96,9 +97,9 @@ std::vector<Barycentric> lagrange_points(int order) {
     if (order > 1)
         for (const auto& edge : kTetEdge)
             for (int k = 1; k < order; ++k)
-                points.push_back((Barycentric::Unit(edge[0]) * (order - k) +
-                                  Barycentric::Unit(edge[1]) * k) /
-                                 order);
+                points.push_back(
+                    (Barycentric::Unit(edge[0]) * (order - k) + Barycentric::Unit(edge[1]) * k) /
+                    order);
     if (order > 2)
         for (int face = 0; face < 4; ++face)
             points.push_back((Barycentric::Ones() - Barycentric::Unit(face)) / 3);

@@ -16,8 +16,8 @@ void check_options(const TetMesh& mesh, const ModalOptions& options) {
     if (mesh.element_count() == 0)
         throw InputError("the mesh has no tetrahedra: there is nothing to vibrate");
     if (options.order < 1 || options.order > 3)
-        throw InputError(format("element order %d is not available: take 1, 2 or 3",
-                                options.order));
+        throw InputError(
+            format("element order %d is not available: take 1, 2 or 3", options.order));
     if (!(options.max_frequency > 0) || !std::isfinite(options.max_frequency))
         throw InputError(format("the highest frequency asked for is %g Hz: it must be positive",
                                 options.max_frequency));
@@ -47,10 +47,26 @@ double largest_ratio(const BlockSystem& s) {
         for (int p = s.start[i]; p < s.start[i + 1]; ++p)
             if (s.column[static_cast<std::size_t>(p)] == static_cast<int>(i)) {
                 const double* k = &s.stiffness[9 * static_cast<std::size_t>(p)];
-                most = std::max(most, std::max({k[0], k[4], k[8]}) /
-                                          s.mass[static_cast<std::size_t>(p)]);
+                most = std::max(most,
+                                std::max({k[0], k[4], k[8]}) / s.mass[static_cast<std::size_t>(p)]);
             }
     return most;
+}
+
+/// Directions held at nodes that stay in the system: uncoupled from everything and given a spring
+/// that puts them at 1e4 times the body's largest eigenvalue, so they share in a mode at lambda by
+/// less than 1e-4 lambda / top.
+void hold_rollers(BlockSystem& s, const std::vector<char>& held, double top) {
+    for (std::size_t i = 0; i < s.node_count(); ++i)
+        for (int p = s.start[i]; p < s.start[i + 1]; ++p) {
+            const auto pair = static_cast<std::size_t>(p);
+            const auto j = static_cast<std::size_t>(s.column[pair]);
+            double* k = &s.stiffness[9 * pair];
+            for (int r = 0; r < 3; ++r)
+                for (int c = 0; c < 3; ++c)
+                    if (held[i] != 7 && held[j] != 7 && ((held[i] >> r & 1) || (held[j] >> c & 1)))
+                        k[3 * r + c] = i == j && r == c ? 1e4 * top * s.mass[pair] : 0.0;
+        }
 }
 
 } // namespace
@@ -67,21 +83,37 @@ ModalProblem::ModalProblem(const TetMesh& mesh, std::span<const Solid> solids,
     check_solids(mesh, solids);
     tell("assemble", 0);
     map_ = number_nodes(mesh, options.order);
-    free_.assign(map_.node_count(), 1);
-    const std::vector<char> clamped = clamped_nodes(mesh, map_, options.clamped);
-    for (std::size_t i = 0; i < free_.size(); ++i)
-        free_[i] = !clamped[i];
-    const auto held = std::count(free_.begin(), free_.end(), 0);
-    if (held == static_cast<std::ptrdiff_t>(free_.size()))
-        throw InputError(format("the clamp holds all %zu nodes: nothing is left to vibrate",
-                                free_.size()));
-    if (!options.clamped.empty() && held == 0)
+    held_.assign(map_.node_count(), 0);
+    hold(options.clamped, 7);
+    for (int axis = 0; axis < 3; ++axis)
+        hold(options.rollers[static_cast<std::size_t>(axis)], static_cast<char>(1 << axis));
+    std::vector<char> keep(held_.size());
+    for (std::size_t i = 0; i < held_.size(); ++i)
+        keep[i] = held_[i] != 7;
+    const auto clamped = std::count(keep.begin(), keep.end(), 0);
+    if (clamped == static_cast<std::ptrdiff_t>(keep.size()))
+        throw InputError(
+            format("the clamp holds all %zu nodes: nothing is left to vibrate", keep.size()));
+    if (!options.clamped.empty() && clamped == 0)
         throw InputError("the clamped nodes belong to no tetrahedron: the clamp holds nothing");
     BlockSystem all = assemble(mesh, map_, solids, options.mass);
-    rigid_ = free_rigid_motions(all, free_);
+    rigid_ = free_rigid_motions(all, held_);
     rigid_modes_ = static_cast<int>(rigid_.cols());
-    system_ = held ? restrict_to(all, free_) : std::move(all);
+    // Small against any elastic eigenvalue, large against the rounding of K (some 1e-15 of its
+    // largest eigenvalue), so that K + shift M is positive definite in floating point too.
+    const double top = largest_ratio(all);
+    shift_ = 1e-10 * top;
+    hold_rollers(all, held_, top);
+    system_ = clamped ? restrict_to(all, keep) : std::move(all);
     tell("assemble", 1);
+}
+
+void ModalProblem::hold(std::span<const int> mesh_nodes, char axes) {
+    if (mesh_nodes.empty())
+        return;
+    const std::vector<char> flag = clamped_nodes(mesh_, map_, mesh_nodes);
+    for (std::size_t i = 0; i < flag.size(); ++i)
+        held_[i] = static_cast<char>(held_[i] | (flag[i] ? axes : 0));
 }
 
 EigenPairs ModalProblem::solve(Index guards) {
@@ -94,9 +126,6 @@ EigenPairs ModalProblem::solve(Index guards) {
                                 "the limit",
                                 options_.order, bytes / 0x1p30,
                                 static_cast<double>(options_.memory) / 0x1p30));
-    // Small against any elastic eigenvalue, large against the rounding of K (some 1e-15 of its
-    // largest eigenvalue), so that K + shift M is positive definite in floating point too.
-    shift_ = 1e-10 * largest_ratio(system_);
     const auto step = [&](double share) { return tell("factorise", share), true; };
     factor_->factorise(system_, shift_, true, step);
 
@@ -157,7 +186,8 @@ bool ModalProblem::verify(EigenPairs& pairs, unsigned seed, LanczosOptions lancz
     for (Index k = 0; k < all; ++k) {
         const auto [value, i] = sorted[static_cast<std::size_t>(k)];
         merged.value[k] = value;
-        merged.vector.col(k) = (i < old ? std::as_const(pairs) : more).vector.col(i < old ? i : i - old);
+        merged.vector.col(k) =
+            (i < old ? std::as_const(pairs) : more).vector.col(i < old ? i : i - old);
     }
     pairs = std::move(merged);
     return true;
@@ -175,7 +205,7 @@ ModalModel ModalProblem::model(const EigenPairs& pairs) const {
     std::vector<int> row(map_.node_count(), -1);
     int next = 0;
     for (std::size_t i = 0; i < row.size(); ++i)
-        if (free_[i])
+        if (held_[i] != 7)
             row[i] = 3 * next++;
     RowMatrix x, kx, mx;
     constexpr Index kAtOnce = 8;

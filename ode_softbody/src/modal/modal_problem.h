@@ -24,14 +24,15 @@ public:
     ModalModel model(const EigenPairs& pairs) const;
 
     const DofMap& map() const noexcept { return map_; }
-    const BlockSystem& system() const noexcept { return system_; } ///< of free nodes
-    const std::vector<char>& free_nodes() const noexcept { return free_; }
+    const BlockSystem& system() const noexcept { return system_; }   ///< of free nodes
+    const std::vector<char>& held() const noexcept { return held_; } ///< see free_rigid_motions
     const RowMatrix& rigid_motions() const noexcept { return rigid_; }
     const BlockFactor& factor() const noexcept { return *factor_; } ///< after solve()
     double shift() const noexcept { return shift_; }
     int rigid_modes() const noexcept { return rigid_modes_; }
 
 private:
+    void hold(std::span<const int> mesh_nodes, char axes);
     bool verify(EigenPairs& pairs, unsigned seed, LanczosOptions lanczos);
     void tell(const char* stage, double share, std::size_t modes = 0) const;
 
@@ -39,7 +40,7 @@ private:
     std::span<const Solid> solids_;
     const ModalOptions& options_;
     DofMap map_;
-    std::vector<char> free_;
+    std::vector<char> held_;
     BlockSystem system_;
     RowMatrix rigid_;
     std::unique_ptr<BlockFactor> factor_;

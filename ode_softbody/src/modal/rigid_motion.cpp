@@ -21,7 +21,7 @@ Motion motion_at(const Vec3& arm, double size) {
 
 } // namespace
 
-RowMatrix free_rigid_motions(const BlockSystem& system, const std::vector<char>& free) {
+RowMatrix free_rigid_motions(const BlockSystem& system, const std::vector<char>& held) {
     const std::vector<int> part = connected_parts(system);
     const int parts = part.empty() ? 0 : 1 + *std::max_element(part.begin(), part.end());
     std::vector<Vec3> centre(static_cast<std::size_t>(parts), Vec3::Zero());
@@ -38,23 +38,22 @@ RowMatrix free_rigid_motions(const BlockSystem& system, const std::vector<char>&
         size[part_of(i)] =
             std::max(size[part_of(i)], (system.position[i] - centre[part_of(i)]).norm());
 
-    std::vector<Eigen::Matrix<double, 6, 6>> held(centre.size(),
-                                                  Eigen::Matrix<double, 6, 6>::Zero());
+    std::vector<Eigen::Matrix<double, 6, 6>> support(centre.size(),
+                                                     Eigen::Matrix<double, 6, 6>::Zero());
     Eigen::Index rows = 0;
     for (std::size_t i = 0; i < part.size(); ++i) {
         const std::size_t p = part_of(i);
-        if (free[i])
-            rows += 3;
-        else {
-            const Motion m = motion_at(system.position[i] - centre[p], size[p]);
-            held[p] += m.transpose() * m;
-        }
+        rows += held[i] == 7 ? 0 : 3;
+        const Motion m = motion_at(system.position[i] - centre[p], size[p]);
+        for (int axis = 0; axis < 3; ++axis)
+            if (held[i] & (1 << axis))
+                support[p] += m.row(axis).transpose() * m.row(axis);
     }
-    // A combination is free if it moves the clamped nodes by less than 1e-5 of the part's size per
+    // A combination is free if it moves the supports by less than 1e-5 of the part's size per
     // unit of motion (squared here): far above rounding, far below any support meant to hold.
     std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>> kept;
     Eigen::Index columns = 0;
-    for (const auto& h : held) {
+    for (const auto& h : support) {
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(h);
         const Eigen::Index n = (eigen.eigenvalues().array() < 1e-10).count();
         kept.emplace_back(eigen.eigenvectors().leftCols(n));
@@ -67,7 +66,7 @@ RowMatrix free_rigid_motions(const BlockSystem& system, const std::vector<char>&
     for (std::size_t p = 1; p < kept.size(); ++p)
         first_column[p] = first_column[p - 1] + kept[p - 1].cols();
     for (std::size_t i = 0; i < part.size(); ++i) {
-        if (!free[i])
+        if (held[i] == 7)
             continue;
         const std::size_t p = part_of(i);
         motions.block(row, first_column[p], 3, kept[p].cols()) =
@@ -76,7 +75,10 @@ RowMatrix free_rigid_motions(const BlockSystem& system, const std::vector<char>&
     }
     if (columns == 0)
         return motions;
-    const BlockSystem reduced = restrict_to(system, free);
+    std::vector<char> keep(held.size());
+    for (std::size_t i = 0; i < held.size(); ++i)
+        keep[i] = held[i] != 7;
+    const BlockSystem reduced = restrict_to(system, keep);
     RowMatrix image;
     for (int pass = 0; pass < 2; ++pass) { // the second removes what rounding left of the first
         multiply_mass(reduced, motions, image);
