@@ -14,6 +14,7 @@ struct Surface {
 
 /// Triangles come in the order of their elements; a quadratic face gives four triangles over its
 /// corners and mid-edge nodes.
+/// @throws InputError when a face belongs to more than two elements.
 Surface extract_surface(const TetMesh& mesh);
 
 } // namespace ode::soft
