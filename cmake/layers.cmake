@@ -68,7 +68,7 @@ function(check_client file included)
 endfunction()
 
 function(check_public file included)
-    if(NOT included MATCHES "^<(ode/common.h|ode_softbody/.*|ode_sound/.*|[a-z]+)>$")
+    if(NOT included MATCHES "^<(ode/common.h|ode_softbody/.*|ode_sound/.*|[a-z_]+)>$")
         complain(${file} "includes ${included}: public headers need ODE's common.h alone")
     elseif(file MATCHES "^ode_softbody" AND included MATCHES "ode_sound")
         complain(${file} "includes ${included}: nothing in ode_softbody knows of sound")

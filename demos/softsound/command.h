@@ -14,6 +14,9 @@ struct Common {
     std::string json;   ///< file for the results as data, "-" for standard output
     bool quiet = false; ///< no progress, no summary
     std::function<int()> action;
+
+    /// Whether standard output is for reading: not when it carries the data.
+    bool summarises() const { return !quiet && json != "-"; }
 };
 
 /// Adds --json and --quiet.

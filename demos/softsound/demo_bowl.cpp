@@ -169,7 +169,7 @@ int run(const Options& o, const Common& common) {
         else
             std::cerr << "softsound: no picture: " << why << '\n';
     }
-    if (!common.quiet)
+    if (common.summarises())
         summarise(results, p, o);
     write_json(common, results);
     return status.stopped ? 1 : 0;
@@ -180,7 +180,8 @@ int run(const Options& o, const Common& common) {
 void add_demo_bowl(CLI::App& demo, Common& common) {
     auto options = std::make_shared<Options>();
     options->stage.name = "bowl";
-    CLI::App& bowl = *demo.add_subcommand("bowl", kAbout);
+    CLI::App& bowl = *demo.add_subcommand("bowl", "A steel bowl falls on the floor and bounces");
+    bowl.footer(kAbout);
     add_stage(bowl, options->stage);
     bowl.add_option("--mesh", options->drop.mesh, "Drop this mesh instead (lengths in metres)")
         ->type_name("FILE");

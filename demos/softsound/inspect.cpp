@@ -3,6 +3,7 @@
 #include "scenes/world.h"
 #include "softsound/command.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -63,7 +64,7 @@ int run(const Options& o, const Common& common) {
     const double longest = std::max({sides[0], sides[1], sides[2]});
     const std::vector<std::string> said = warnings(q, longest);
 
-    if (!common.quiet) {
+    if (common.summarises()) {
         std::printf("%s\n", o.mesh.c_str());
         std::printf("  nodes              %d\n", q.nodes);
         std::printf("  elements           %d\n", q.elements);
