@@ -208,3 +208,35 @@ dGeomID dSoftBodyGetGeom(dSoftBodyID id) {
     require_id(id, __func__);
     return from_id(id).geom();
 }
+
+dSoftBodyID dSoftGeomGetSoftBody(dGeomID geom) {
+    require_id(geom, __func__);
+    const Body* body = Body::behind(geom);
+    return body ? to_id(*body) : nullptr;
+}
+
+dSoftContact dSoftContactDefault(void) {
+    const ContactLaw law;
+    dSoftContact contact{};
+    contact.struct_size = sizeof contact;
+    contact.friction = law.friction;
+    contact.stiffness = law.stiffness;
+    contact.damping = law.damping;
+    return contact;
+}
+
+int dSoftBodySetContact(dSoftBodyID id, const dSoftContact* contact) {
+    require_id(id, __func__);
+    require_id(contact, __func__);
+    return guarded(__func__, 0, [&] {
+        dSoftContact c = dSoftContactDefault();
+        copy_in(*contact, "dSoftContactDefault", &c);
+        if (!(c.friction >= 0 && c.stiffness >= 0 && c.damping >= 0 && std::isfinite(c.stiffness) &&
+              std::isfinite(c.damping)))
+            throw InputError(format("friction %g, stiffness %g Pa/m or damping %g s is negative or not "
+                                    "a number; give values of at least 0",
+                                    c.friction, c.stiffness, c.damping));
+        from_id(id).set_contact_law({c.friction, c.stiffness, c.damping});
+        return 1;
+    });
+}

@@ -26,6 +26,11 @@ int dSoftWorldStep(dSoftWorldID world, dReal h, int (*step)(dWorldID, dReal)) {
     return from_id(world).step(h, step);
 }
 
+dSoftHook dSoftWorldGetHook(dSoftWorldID world) {
+    require_id(world, __func__);
+    return steps_are_interposed() ? dSoftHookInterposed : dSoftHookNone;
+}
+
 dReal dSoftWorldGetTime(dSoftWorldID world) {
     require_id(world, __func__);
     return from_id(world).time();

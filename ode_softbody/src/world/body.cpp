@@ -1,6 +1,7 @@
 #include "world/body.h"
 
 #include "base/error.h"
+#include "collide/ray.h"
 #include "integrate/critical_step.h"
 #include "mesh/quality.h"
 #include "model/check_solid.h"
@@ -28,15 +29,16 @@ Body::Body(SoftWorld& world, const TetMesh& mesh, const Solid& solid)
     model_ = std::make_unique<StvkLinear>(mesh_, solid_);
 
     const std::size_t nodes = mesh_.node.size();
-    state_ = NodeState(nodes);
-    checkpoint_ = NodeState(nodes);
+    integrator_ = make_integrator("central_difference", nodes);
+    state_ = {NodeArray(nodes), NodeArray(nodes)};
+    checkpoint_ = state_;
     force_ = NodeArray(nodes);
     external_ = NodeArray(nodes);
     for (std::size_t i = 0; i < nodes; ++i)
         state_.position[i] = mesh_.node[i];
     unpin();
     total_mass_ = std::accumulate(mass().begin(), mass().end(), 0.0);
-    critical_step_ = critical_step(*model_, solid_);
+    critical_step_ = ode::soft::critical_step(*model_, inverse_mass_, state_.position, viscous_time(solid_));
     use_default_substep();
     contact_nodes_ = SurfaceNodes(mesh_, surface_, mass());
     geom_ = create_soft_geom(world.space(), *this);
@@ -45,6 +47,10 @@ Body::Body(SoftWorld& world, const TetMesh& mesh, const Solid& solid)
 Body::~Body() {
     if (geom_)
         destroy_soft_geom(geom_);
+}
+
+Body* Body::behind(dGeomID geom) noexcept {
+    return static_cast<Body*>(soft_geom_client(geom));
 }
 
 void Body::use_default_substep() noexcept {
@@ -140,20 +146,20 @@ void Body::begin_step() noexcept {
     extremes_ = {};
 }
 
-void Body::begin_force(const Vec3& gravity) noexcept {
+void Body::begin_substep(const Vec3& gravity) noexcept {
     for (std::size_t i = 0; i < force_.size(); ++i)
         force_[i] = mass()[i] * gravity;
     if (has_external_)
         for (std::size_t i = 0; i < force_.size(); ++i)
             force_[i] += external_[i];
-    const StrainExtremes now = model_->add_force(state_.position, state_.velocity, force_);
-    extremes_.min_jacobian = std::min(extremes_.min_jacobian, now.min_jacobian);
-    extremes_.max_stretch = std::max(extremes_.max_stretch, now.max_stretch);
     bearing_points_ = 0;
 }
 
 void Body::advance(double dt) noexcept {
-    central_difference(state_, force_, inverse_mass_, solid_.alpha, dt);
+    const NodeInertia inertia{inverse_mass_, solid_.alpha};
+    const StrainExtremes now = integrator_->step(*model_, inertia, dt, state_, force_);
+    extremes_.min_jacobian = std::min(extremes_.min_jacobian, now.min_jacobian);
+    extremes_.max_stretch = std::max(extremes_.max_stretch, now.max_stretch);
 }
 
 void Body::end_step() noexcept {
@@ -188,6 +194,10 @@ Aabb Body::aabb() noexcept {
 void Body::on_pair(dGeomID other) noexcept {
     if (std::find(pair_.begin(), pair_.end(), other) == pair_.end())
         pair_.push_back(other);
+}
+
+int Body::on_ray(dGeomID ray, int flags, dContactGeom* contact, int skip) noexcept {
+    return collide_ray(geom_, ray, surface_.triangle, state_.position, flags, contact, skip);
 }
 
 void Body::on_destroyed() noexcept {

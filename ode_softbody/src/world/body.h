@@ -2,7 +2,7 @@
 
 #include "collide/soft_geom.h"
 #include "couple/node_contact.h"
-#include "integrate/node_state.h"
+#include "integrate/integrator.h"
 #include "mesh/surface.h"
 #include "mesh/tet_mesh.h"
 #include "model/elastic_model.h"
@@ -26,6 +26,9 @@ public:
     ~Body();
     Body(const Body&) = delete;
     Body& operator=(const Body&) = delete;
+
+    /// nullptr for a geom that is no soft body's.
+    static Body* behind(dGeomID geom) noexcept;
 
     SoftWorld& world() const noexcept { return world_; }
     const TetMesh& mesh() const noexcept { return mesh_; }
@@ -81,8 +84,8 @@ private:
     void on_destroyed() noexcept override;
 
     void begin_step() noexcept; ///< remembers the state to return to
-    void begin_force(const Vec3& gravity) noexcept; ///< all forces but contact
-    void advance(double dt) noexcept;
+    void begin_substep(const Vec3& gravity) noexcept; ///< force_ becomes what acts from afar
+    void advance(double dt) noexcept; ///< by the material and by force_, contact included
     void end_step() noexcept;
     void roll_back() noexcept;
     void stop() noexcept;
@@ -95,6 +98,7 @@ private:
     Solid solid_;
     Surface surface_;
     std::unique_ptr<ElasticModel> model_;
+    std::unique_ptr<Integrator> integrator_;
     NodeState state_;
     NodeState checkpoint_; ///< at the start of the step, to return to when the step fails
     NodeArray force_;      ///< [N]

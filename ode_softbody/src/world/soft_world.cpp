@@ -1,7 +1,6 @@
 #include "world/soft_world.h"
 
 #include "base/error.h"
-#include "integrate/central_difference.h"
 
 #include <ode/objects.h>
 
@@ -116,7 +115,7 @@ bool SoftWorld::advance(double h) noexcept {
     for (long i = 1; i <= substeps; ++i) {
         for (const auto& body : body_)
             if (!body->stopped())
-                body->begin_force(gravity);
+                body->begin_substep(gravity);
         const ContactTally tally = exchange_.add_forces(dt);
         stats_.contact_tests += tally.tests;
         stats_.contact_points += tally.bearing;
