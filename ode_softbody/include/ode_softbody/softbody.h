@@ -54,8 +54,8 @@ typedef struct dSoftWorldStats {
     unsigned long contact_points; /**< contact points that bore force */
     unsigned long contact_tests;  /**< surface nodes tested against a rigid shape in a substep */
     unsigned long observer_calls; /**< substep views handed out */
-    dReal seconds;                /**< CPU time spent in substeps [s], observers included */
-    dReal observer_seconds;       /**< CPU time spent in observers [s] */
+    dReal seconds;                /**< wall time spent in substeps [s], observers included */
+    dReal observer_seconds;       /**< wall time spent in observers [s] */
 } dSoftWorldStats;
 DSOFT_API int dSoftWorldGetStats(dSoftWorldID world, dSoftWorldStats* stats);
 

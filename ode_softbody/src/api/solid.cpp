@@ -1,5 +1,6 @@
 #include "api/solid.h"
 
+#include "api/versioned.h"
 #include "base/error.h"
 #include "model/materials.h"
 
@@ -23,7 +24,9 @@ dSoftSolid to_c(const Solid& s) noexcept {
 
 } // namespace
 
-Solid from_c(const dSoftSolid& c) noexcept {
+Solid from_c(const dSoftSolid& given) {
+    dSoftSolid c = to_c(Solid{});
+    copy_in(given, "dSoftSolidDefault", &c);
     Solid s;
     s.young = c.young;
     s.poisson = c.poisson;

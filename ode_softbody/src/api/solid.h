@@ -6,6 +6,7 @@
 
 namespace ode::soft {
 
-Solid from_c(const dSoftSolid& c) noexcept;
+/// @throws InputError when struct_size is unset.
+Solid from_c(const dSoftSolid& given);
 
 } // namespace ode::soft

@@ -1,0 +1,29 @@
+#include "softsound/command.h"
+
+#include <fstream>
+#include <iostream>
+#include <stdexcept>
+
+namespace softsound {
+
+void add_common(CLI::App& command, Common& common) {
+    command.add_option("--json", common.json, "Write the results as data ('-': standard output)")
+        ->type_name("FILE");
+    command.add_flag("--quiet", common.quiet, "No progress, no summary");
+}
+
+void write_json(const Common& common, const nlohmann::ordered_json& results) {
+    if (common.json.empty())
+        return;
+    if (common.json == "-") {
+        std::cout << results.dump(2) << std::endl;
+        return;
+    }
+    std::ofstream file(common.json);
+    file << results.dump(2) << '\n';
+    file.close();
+    if (!file)
+        throw std::runtime_error(common.json + ": cannot be written; is the folder there?");
+}
+
+} // namespace softsound

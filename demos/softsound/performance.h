@@ -1,0 +1,52 @@
+#pragma once
+
+#include "scenes/world.h"
+#include "softsound/command.h"
+
+#include <memory>
+#include <ode_sound/sound.h>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace softsound {
+
+/// What every demo lets its user choose.
+struct Stage {
+    std::string name;        ///< of the demo
+    double seconds = 2;      ///< simulated [s]
+    double step = 1.0 / 240; ///< of ODE [s]
+    std::string out;         ///< WAV
+    std::string plot;        ///< PNG
+    bool live = false;       ///< through OpenAL, too
+    std::string radiation = "monopole";
+    std::string sampling = "sinc";
+    dVector3 ear = {0, -1, 1.6}; ///< midpoint of the ears [m]; they look along +y, +z is up
+};
+
+/// Adds --out, --plot, --live, --seconds, --radiation, --sampling.
+void add_stage(CLI::App& command, Stage& stage);
+
+/// What a run gives.
+struct Performance {
+    double seconds = 0; ///< simulated [s]
+    double cpu = 0;     ///< CPU time of all threads [s]
+    double wall = 0;    ///< [s]
+    dSoftWorldStats world = {};
+    dSoundStats sound = {};
+    std::vector<float> left; ///< what the left ear heard [Pa]
+    int rate = 48000;        ///< [Hz]
+    std::string live_kind;   ///< "openal", "null" (no device), "" (not asked for)
+};
+
+/// Steps a world to its end with a listener in it, and leaves the sound in a file.
+/// @throws scenes::Refused, std::runtime_error
+Performance perform(scenes::World& world, const Stage& stage, bool quiet);
+
+/// Results that every demo reports, as data.
+nlohmann::ordered_json as_json(const Performance& performance);
+
+/// Level of a peak pressure [dB re 20 uPa]; -infinity for silence.
+double sound_pressure_level(double pressure);
+
+} // namespace softsound

@@ -1,0 +1,82 @@
+#include "api/boundary.h"
+#include "api/handles.h"
+#include "api/versioned.h"
+#include "world/observer.h"
+
+using namespace ode::soft;
+
+namespace {
+
+/// A set of C callbacks as an Observer. Owned by the world's observer list through this file.
+class CallbackObserver final : public Observer {
+public:
+    explicit CallbackObserver(const dSoftObserver& callbacks) noexcept : call_(callbacks) {}
+
+    void* data() const noexcept { return call_.data; }
+
+    bool wants_substeps() const noexcept override { return call_.on_substep; }
+
+    void on_substep(const SubstepView& view) noexcept override {
+        const Body& body = view.body;
+        const auto& triangles = body.surface().triangle;
+        dSoftSubstep substep{};
+        substep.struct_size = sizeof substep;
+        substep.body = to_id(body);
+        substep.time = view.time;
+        substep.dt = view.dt;
+        substep.position = body.state().position.data();
+        substep.velocity = body.state().velocity.data();
+        substep.stride = NodeArray::kStride;
+        substep.node_count = static_cast<int>(body.state().position.size());
+        substep.triangle = triangles.front().data();
+        substep.triangle_count = static_cast<int>(triangles.size());
+        call_.on_substep(call_.data, &substep);
+    }
+
+    void on_step(SoftWorld& world, double time) noexcept override {
+        if (call_.on_step)
+            call_.on_step(call_.data, to_id(world), time);
+    }
+
+    void on_body_end(Body& body) noexcept override {
+        if (call_.on_body_end)
+            call_.on_body_end(call_.data, to_id(body));
+    }
+
+    void on_world_end(SoftWorld& world) noexcept override {
+        if (call_.on_world_end)
+            call_.on_world_end(call_.data, to_id(world));
+    }
+
+private:
+    dSoftObserver call_;
+};
+
+} // namespace
+
+int dSoftWorldAddObserver(dSoftWorldID world, const dSoftObserver* observer) {
+    require_id(world, __func__);
+    require_id(observer, __func__);
+    return guarded(__func__, 0, [&] {
+        dSoftObserver callbacks{};
+        copy_in(*observer, "{sizeof(dSoftObserver), ...}", &callbacks);
+        from_id(world).add_observer(std::make_unique<CallbackObserver>(callbacks));
+        return 1;
+    });
+}
+
+int dSoftWorldAddSubstepObserver(dSoftWorldID world, dSoftSubstepCallback* callback, void* data) {
+    dSoftObserver observer{};
+    observer.struct_size = sizeof observer;
+    observer.data = data;
+    observer.on_substep = callback;
+    return dSoftWorldAddObserver(world, &observer);
+}
+
+int dSoftWorldRemoveObserver(dSoftWorldID world, void* data) {
+    require_id(world, __func__);
+    return static_cast<int>(from_id(world).remove_observers([data](const Observer& observer) {
+        const auto* callbacks = dynamic_cast<const CallbackObserver*>(&observer);
+        return callbacks && callbacks->data() == data;
+    }));
+}

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "modal/block_lanczos.h"
+#include "modal/solve_modes.h"
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+namespace ode::soft {
+
+/// The steps of a modal analysis one by one, for those who need what lies between: the factor, the
+/// matrices, the vectors on all nodes.
+class ModalProblem {
+public:
+    /// Checks, numbers and assembles. Mesh, solids and options are borrowed for the object's life.
+    ModalProblem(const TetMesh& mesh, std::span<const Solid> solids, const ModalOptions& options);
+
+    /// Factorises, finds all pairs wanted and `guards` more where there are any, and verifies the
+    /// count. Pairs without strain energy are taken out and added to rigid_modes().
+    EigenPairs solve(Eigen::Index guards = 0);
+
+    /// Rayleigh quotients, mass normalisation, sign; shapes on the mesh's own nodes.
+    ModalModel model(const EigenPairs& pairs) const;
+
+    const DofMap& map() const noexcept { return map_; }
+    const BlockSystem& system() const noexcept { return system_; }   ///< of free nodes
+    const std::vector<char>& held() const noexcept { return held_; } ///< see free_rigid_motions
+    const RowMatrix& rigid_motions() const noexcept { return rigid_; }
+    const BlockFactor& factor() const noexcept { return *factor_; } ///< after solve()
+    double shift() const noexcept { return shift_; }
+    int rigid_modes() const noexcept { return rigid_modes_; }
+
+private:
+    void hold(std::span<const int> mesh_nodes, char axes);
+    bool verify(EigenPairs& pairs, unsigned seed, LanczosOptions lanczos);
+    void tell(const char* stage, double share, std::size_t modes = 0) const;
+
+    const TetMesh& mesh_;
+    std::span<const Solid> solids_;
+    const ModalOptions& options_;
+    DofMap map_;
+    std::vector<char> held_;
+    BlockSystem system_;
+    RowMatrix rigid_;
+    std::unique_ptr<BlockFactor> factor_;
+    double shift_ = 0;
+    int rigid_modes_ = 0;
+};
+
+/// lambda = (2 pi f)^2.
+inline double eigenvalue_of(double frequency) {
+    const double w = 2 * std::numbers::pi * frequency;
+    return w * w;
+}
+inline double frequency_of(double eigenvalue) {
+    return eigenvalue > 0 ? std::sqrt(eigenvalue) / (2 * std::numbers::pi) : 0.0;
+}
+
+} // namespace ode::soft

@@ -1,0 +1,14 @@
+#include "modal/solve_modes.h"
+
+#include "modal/modal_problem.h"
+
+namespace ode::soft {
+
+ModalModel solve_modes(const TetMesh& mesh, std::span<const Solid> solids,
+                       const ModalOptions& options) {
+    ModalProblem problem(mesh, solids, options);
+    const EigenPairs pairs = problem.solve();
+    return problem.model(pairs);
+}
+
+} // namespace ode::soft

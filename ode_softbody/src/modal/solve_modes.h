@@ -1,0 +1,41 @@
+#pragma once
+
+#include "modal/modal_model.h"
+
+#include <array>
+#include <functional>
+
+namespace ode::soft {
+
+/// Where a modal analysis stands.
+struct ModalProgress {
+    const char* stage; ///< "assemble", "factorise", "modes", "verify", "cubic"
+    double share;      ///< of this stage [0, 1]
+    std::size_t modes; ///< found so far
+};
+
+struct ModalOptions {
+    int order = 2; ///< of the displacement: 1, 2 or 3, whatever the mesh
+    MassKind mass = MassKind::kConsistent;
+    double max_frequency = 22000;              ///< [Hz] all modes up to here
+    std::size_t max_modes = 0;                 ///< lowest ones only; 0: no limit
+    std::vector<int> clamped;                  ///< mesh nodes held still (see clamped_nodes)
+    std::array<std::vector<int>, 3> rollers;   ///< mesh nodes held along x, y, z only
+    bool clamp = false;                        ///< a clamp is meant: an empty `clamped` is an error
+    bool verify = true;                        ///< count the modes by Sylvester's law of inertia
+    std::size_t memory = std::size_t{4} << 30; ///< refuse what would need more [bytes]
+    std::function<bool(const ModalProgress&)> progress; ///< false cancels
+};
+
+/// Natural frequencies and shapes of a linear elastic body at rest.
+///
+/// Free motions are known exactly and kept out, so they never leak into the lowest modes; anything
+/// else without strain energy (two parts that touch along an edge) is counted in rigid_modes.
+/// Shapes of equal frequencies are any basis of their space, the same on each run. The sign makes
+/// the largest component positive.
+/// @param solids  by the mesh's group index
+/// @throws InputError naming what is wrong and what to do; Cancelled when progress returns false.
+ModalModel solve_modes(const TetMesh& mesh, std::span<const Solid> solids,
+                       const ModalOptions& options = {});
+
+} // namespace ode::soft

@@ -1,0 +1,216 @@
+#include "world/body.h"
+
+#include "base/error.h"
+#include "integrate/critical_step.h"
+#include "mesh/quality.h"
+#include "model/check_solid.h"
+#include "model/stvk_linear.h"
+#include "world/soft_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace ode::soft {
+namespace {
+
+// Room for what the bound at rest doesn't see: contact stiffness (its share of the largest
+// eigenvalue is limited to 0.15, which shrinks the step by 1/sqrt(1.15) = 0.93) and strain.
+constexpr double kStepSafety = 0.9;
+
+} // namespace
+
+Body::Body(SoftWorld& world, const TetMesh& mesh, const Solid& solid)
+    : world_(world), mesh_(mesh), solid_(solid) {
+    check_mesh(mesh_, "mesh");
+    check_solid(solid_);
+    surface_ = extract_surface(mesh_);
+    model_ = std::make_unique<StvkLinear>(mesh_, solid_);
+
+    const std::size_t nodes = mesh_.node.size();
+    state_ = NodeState(nodes);
+    checkpoint_ = NodeState(nodes);
+    force_ = NodeArray(nodes);
+    external_ = NodeArray(nodes);
+    for (std::size_t i = 0; i < nodes; ++i)
+        state_.position[i] = mesh_.node[i];
+    unpin();
+    total_mass_ = std::accumulate(mass().begin(), mass().end(), 0.0);
+    critical_step_ = critical_step(*model_, solid_);
+    use_default_substep();
+    contact_nodes_ = SurfaceNodes(mesh_, surface_, mass());
+    geom_ = create_soft_geom(world.space(), *this);
+}
+
+Body::~Body() {
+    if (geom_)
+        destroy_soft_geom(geom_);
+}
+
+void Body::use_default_substep() noexcept {
+    substep_ = kStepSafety * critical_step_;
+}
+
+Vec3 Body::center_of_mass() const noexcept {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < mass().size(); ++i)
+        sum += mass()[i] * state_.position[i];
+    return sum / total_mass_;
+}
+
+Vec3 Body::linear_momentum() const noexcept {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < mass().size(); ++i)
+        sum += mass()[i] * state_.velocity[i];
+    return sum;
+}
+
+Vec3 Body::angular_momentum() const noexcept {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < mass().size(); ++i)
+        sum += mass()[i] * state_.position[i].cross(state_.velocity[i]);
+    return sum;
+}
+
+double Body::kinetic_energy() const noexcept {
+    double sum = 0;
+    for (std::size_t i = 0; i < mass().size(); ++i)
+        sum += mass()[i] * state_.velocity[i].squaredNorm();
+    return sum / 2;
+}
+
+double Body::elastic_energy() const noexcept {
+    return model_->energy(state_.position);
+}
+
+void Body::move_to(const Vec3& center) noexcept {
+    const Vec3 offset = center - center_of_mass();
+    for (std::size_t i = 0; i < state_.position.size(); ++i)
+        state_.position[i] += offset;
+    moved();
+}
+
+void Body::rotate(const Quat& rotation) noexcept {
+    const Mat3 turn = rotation.toRotationMatrix();
+    const Vec3 center = center_of_mass();
+    for (std::size_t i = 0; i < state_.position.size(); ++i) {
+        state_.position[i] = center + turn * (state_.position[i] - center);
+        state_.velocity[i] = turn * Vec3(state_.velocity[i]);
+    }
+    moved();
+}
+
+void Body::set_velocity(const Vec3& velocity) noexcept {
+    for (std::size_t i = 0; i < state_.velocity.size(); ++i)
+        state_.velocity[i] = inverse_mass_[i] > 0 ? velocity : Vec3::Zero();
+}
+
+void Body::add_spin(const Vec3& omega) noexcept {
+    const Vec3 center = center_of_mass();
+    for (std::size_t i = 0; i < state_.velocity.size(); ++i)
+        if (inverse_mass_[i] > 0)
+            state_.velocity[i] += omega.cross(state_.position[i] - center);
+}
+
+void Body::pin(std::span<const int> nodes) noexcept {
+    for (const int node : nodes) {
+        const auto i = static_cast<std::size_t>(node);
+        if (inverse_mass_[i] == 0)
+            continue;
+        inverse_mass_[i] = 0;
+        state_.velocity[i].setZero();
+        pinned_.insert(std::lower_bound(pinned_.begin(), pinned_.end(), node), node);
+    }
+}
+
+void Body::unpin() noexcept {
+    inverse_mass_.resize(mass().size());
+    std::transform(mass().begin(), mass().end(), inverse_mass_.begin(),
+                   [](double m) { return 1 / m; });
+    pinned_.clear();
+}
+
+void Body::add_force(int node, const Vec3& force) noexcept {
+    external_[static_cast<std::size_t>(node)] += force;
+    has_external_ = true;
+}
+
+void Body::begin_step() noexcept {
+    checkpoint_ = state_;
+    extremes_ = {};
+}
+
+void Body::begin_force(const Vec3& gravity) noexcept {
+    for (std::size_t i = 0; i < force_.size(); ++i)
+        force_[i] = mass()[i] * gravity;
+    if (has_external_)
+        for (std::size_t i = 0; i < force_.size(); ++i)
+            force_[i] += external_[i];
+    const StrainExtremes now = model_->add_force(state_.position, state_.velocity, force_);
+    extremes_.min_jacobian = std::min(extremes_.min_jacobian, now.min_jacobian);
+    extremes_.max_stretch = std::max(extremes_.max_stretch, now.max_stretch);
+    bearing_points_ = 0;
+}
+
+void Body::advance(double dt) noexcept {
+    central_difference(state_, force_, inverse_mass_, solid_.alpha, dt);
+}
+
+void Body::end_step() noexcept {
+    failures_ = 0;
+    if (!has_external_)
+        return;
+    external_.set_zero();
+    has_external_ = false;
+}
+
+void Body::roll_back() noexcept {
+    std::swap(state_, checkpoint_);
+}
+
+void Body::stop() noexcept {
+    stopped_ = true;
+    bearing_points_ = 0;
+    state_.velocity.set_zero();
+    moved();
+}
+
+Aabb Body::aabb() noexcept {
+    collided_ = true;
+    Aabb box = Aabb::empty();
+    for (const int node : surface_.node)
+        box.include(state_.position[static_cast<std::size_t>(node)]);
+    // The pairs recorded now serve the whole step that follows.
+    box.grow(max_speed() * world_.last_step());
+    return box;
+}
+
+void Body::on_pair(dGeomID other) noexcept {
+    if (std::find(pair_.begin(), pair_.end(), other) == pair_.end())
+        pair_.push_back(other);
+}
+
+void Body::on_destroyed() noexcept {
+    geom_ = nullptr; // the application's id of the body stays good; it only meets nothing any more
+}
+
+void Body::moved() noexcept {
+    if (geom_)
+        mark_moved(geom_);
+}
+
+double Body::max_speed() const noexcept {
+    double fastest = 0;
+    for (const int node : surface_.node)
+        fastest = std::max(fastest, state_.velocity[static_cast<std::size_t>(node)].squaredNorm());
+    return std::sqrt(fastest);
+}
+
+bool Body::is_finite() const noexcept {
+    double sum = 0; // any NaN or infinity survives the sum
+    for (std::size_t i = 0; i < state_.position.size(); ++i)
+        sum += (state_.position[i] + state_.velocity[i]).sum() * 0;
+    return sum == 0;
+}
+
+} // namespace ode::soft

@@ -1,0 +1,119 @@
+#pragma once
+
+#include "collide/soft_geom.h"
+#include "couple/node_contact.h"
+#include "integrate/node_state.h"
+#include "mesh/surface.h"
+#include "mesh/tet_mesh.h"
+#include "model/elastic_model.h"
+#include "model/solid.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace ode::soft {
+
+class SoftWorld;
+
+/// A soft body: a meshed solid, its motion, its surface and its geom in ODE's space.
+/// Node arrays are world frame, in the mesh's order.
+class Body final : private SoftGeomClient {
+public:
+    /// At rest in the mesh's own coordinates, with a geom in the world's space.
+    /// @throws InputError for a mesh or a solid that no body can be made of.
+    Body(SoftWorld& world, const TetMesh& mesh, const Solid& solid);
+    ~Body();
+    Body(const Body&) = delete;
+    Body& operator=(const Body&) = delete;
+
+    SoftWorld& world() const noexcept { return world_; }
+    const TetMesh& mesh() const noexcept { return mesh_; }
+    const Surface& surface() const noexcept { return surface_; }
+    const Solid& solid() const noexcept { return solid_; }
+    const ElasticModel& model() const noexcept { return *model_; }
+    dGeomID geom() const noexcept { return geom_; } ///< nullptr once the application destroyed it
+
+    const NodeState& state() const noexcept { return state_; }
+    std::span<const double> mass() const noexcept { return model_->mass(); } ///< of each node [kg]
+
+    double total_mass() const noexcept { return total_mass_; } ///< [kg]
+    Vec3 center_of_mass() const noexcept;                      ///< [m]
+    Vec3 linear_momentum() const noexcept;                     ///< [kg m/s]
+    Vec3 angular_momentum() const noexcept;                    ///< about the origin [kg m^2/s]
+    double kinetic_energy() const noexcept;                    ///< [J]
+    double elastic_energy() const noexcept;                    ///< [J]
+
+    void move_to(const Vec3& center) noexcept;
+    void rotate(const Quat& rotation) noexcept; ///< about the centre of mass
+    void set_velocity(const Vec3& velocity) noexcept;
+    void add_spin(const Vec3& omega) noexcept; ///< about the centre of mass [rad/s]
+
+    /// Holds nodes where they are, at zero velocity.
+    void pin(std::span<const int> nodes) noexcept;
+    void unpin() noexcept;
+    std::span<const int> pinned() const noexcept { return pinned_; } ///< ascending
+
+    /// Adds to the forces of the next step [N].
+    void add_force(int node, const Vec3& force) noexcept;
+
+    double critical_step() const noexcept { return critical_step_; } ///< at rest [s]
+    double substep() const noexcept { return substep_; }             ///< asked for [s]
+    void set_substep(double dt) noexcept { substep_ = dt; }          ///< 0 < dt <= critical_step()
+    void use_default_substep() noexcept;
+
+    const ContactLaw& contact_law() const noexcept { return contact_law_; }
+    void set_contact_law(const ContactLaw& law) noexcept { contact_law_ = law; }
+
+    bool stopped() const noexcept { return stopped_; }
+    const StrainExtremes& extremes() const noexcept { return extremes_; } ///< of the last step
+    std::size_t bearing_points() const noexcept { return bearing_points_; }
+
+    void* data = nullptr; ///< the application's
+
+private:
+    friend class SoftWorld;
+    friend class RigidExchange;
+
+    Aabb aabb() noexcept override;
+    void on_pair(dGeomID other) noexcept override;
+    int on_ray(dGeomID ray, int flags, dContactGeom* contact, int skip) noexcept override;
+    void on_destroyed() noexcept override;
+
+    void begin_step() noexcept; ///< remembers the state to return to
+    void begin_force(const Vec3& gravity) noexcept; ///< all forces but contact
+    void advance(double dt) noexcept;
+    void end_step() noexcept;
+    void roll_back() noexcept;
+    void stop() noexcept;
+    void moved() noexcept; ///< tells ODE that the geom's box is out of date
+    double max_speed() const noexcept;
+    bool is_finite() const noexcept;
+
+    SoftWorld& world_;
+    TetMesh mesh_;
+    Solid solid_;
+    Surface surface_;
+    std::unique_ptr<ElasticModel> model_;
+    NodeState state_;
+    NodeState checkpoint_; ///< at the start of the step, to return to when the step fails
+    NodeArray force_;      ///< [N]
+    NodeArray external_;   ///< the application's, constant over a step [N]
+    bool has_external_ = false;
+    std::vector<double> inverse_mass_; ///< [1/kg], 0: held
+    std::vector<int> pinned_;
+    SurfaceNodes contact_nodes_; ///< area, mass, neighbourhood of each surface node
+    ContactLaw contact_law_;
+    double total_mass_;
+    double critical_step_;
+    double substep_;
+    StrainExtremes extremes_;
+    std::size_t bearing_points_ = 0;
+    int failures_ = 0; ///< attempts at this step that went unstable
+    bool stopped_ = false;
+    bool collided_ = false; ///< the space has looked at the geom since the last step
+    std::vector<dGeomID> pair_; ///< rigid geoms met since the last step
+    dGeomID geom_ = nullptr;
+};
+
+} // namespace ode::soft

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "base/types.h"
+
+namespace ode::soft {
+
+class Body;
+class SoftWorld;
+
+/// One body at the end of a substep; borrowed, dies on return.
+struct SubstepView {
+    const Body& body;
+    double time; ///< [s] since the world's creation
+    double dt;   ///< [s]
+};
+
+/// Watches a world's substeps. Observers run on the stepping thread, in order of registration, and
+/// must not change the world, allocate or throw.
+class Observer {
+public:
+    virtual ~Observer() = default;
+
+    /// Whether on_substep() wants to be called; asked once a step, so that a world whose observers
+    /// only watch steps hands out no views.
+    virtual bool wants_substeps() const noexcept = 0;
+    virtual void on_substep(const SubstepView& view) noexcept = 0;
+    /// After the substeps of a step, before ODE's own. @param time  at the step's end [s].
+    virtual void on_step(SoftWorld& world, double time) noexcept = 0;
+    virtual void on_body_end(Body& body) noexcept = 0;
+    virtual void on_world_end(SoftWorld& world) noexcept = 0;
+};
+
+} // namespace ode::soft

@@ -1,0 +1,184 @@
+#include "world/soft_world.h"
+
+#include "base/error.h"
+#include "integrate/central_difference.h"
+
+#include <ode/objects.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace ode::soft {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) noexcept {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Substeps between looks at whether a body is still finite: an explicit instability multiplies its
+// amplitude by more than 1 a substep, so a blow-up from rounding takes hundreds, and a look costs
+// about a tenth of a force.
+constexpr int kWatchInterval = 10;
+
+// Principal stretch beyond which no explicit step chosen at rest is stable for any material here.
+constexpr double kStretchLimit = 10;
+
+// Stretch raises the largest frequency of a St. Venant-Kirchhoff solid about in proportion, so the
+// substep follows it. @param stretch  of the step before, or of the failed attempt: maybe not finite.
+double stiffening(double stretch) noexcept {
+    return stretch < kStretchLimit ? std::max(1.0, stretch) : kStretchLimit;
+}
+
+} // namespace
+
+SoftWorld::SoftWorld(dWorldID world, dSpaceID space) : world_(world), space_(space) {}
+
+SoftWorld::~SoftWorld() {
+    for (const auto& observer : observer_)
+        observer->on_world_end(*this);
+    observer_.clear();
+}
+
+Body& SoftWorld::create_body(const TetMesh& mesh, const Solid& solid) {
+    return *body_.emplace_back(std::make_unique<Body>(*this, mesh, solid));
+}
+
+void SoftWorld::destroy_body(Body& body) noexcept {
+    for (const auto& observer : observer_)
+        observer->on_body_end(body);
+    exchange_.forget(body);
+    std::erase_if(body_, [&](const auto& b) { return b.get() == &body; });
+}
+
+int SoftWorld::step(double h, RealStep real_step) noexcept {
+    if (stepping_)
+        return real_step(world_, h);
+    if (!(h > 0 && std::isfinite(h))) {
+        report(format("the step of %g s is refused; give a finite one above 0", h));
+        return 0;
+    }
+    stepping_ = true;
+    const auto start = Clock::now();
+    meet(h);
+    while (!advance(h)) {
+    }
+    time_ += h;
+    ++stats_.steps;
+    stats_.seconds += seconds_since(start);
+    watch_step();
+
+    exchange_.hand_over();
+    const int result = real_step(world_, h);
+    exchange_.write_back();
+
+    last_step_ = h;
+    for (const auto& body : body_) {
+        body->pair_.clear();
+        body->collided_ = false;
+        body->moved();
+    }
+    stepping_ = false;
+    return result;
+}
+
+void SoftWorld::meet(double h) noexcept {
+    last_step_ = h;
+    for (const auto& body : body_)
+        if (!body->collided_ && body->geom() && !body->stopped())
+            collide_now(body->geom());
+}
+
+double SoftWorld::common_substep(double h) const noexcept {
+    double least = h;
+    for (const auto& body : body_)
+        if (!body->stopped())
+            least = std::min(least, body->substep() / stiffening(body->extremes().max_stretch));
+    return h / std::ceil(h / least);
+}
+
+bool SoftWorld::advance(double h) noexcept {
+    if (std::all_of(body_.begin(), body_.end(), [](const auto& b) { return b->stopped(); }))
+        return true;
+    const double dt = common_substep(h);
+    const auto substeps = std::lround(h / dt);
+    dVector3 g;
+    dWorldGetGravity(world_, g);
+    const Vec3 gravity(g[0], g[1], g[2]);
+
+    exchange_.begin_step(body_, h, dt);
+    for (const auto& body : body_)
+        body->begin_step();
+    const bool observed = std::any_of(observer_.begin(), observer_.end(),
+                                      [](const auto& o) { return o->wants_substeps(); });
+    for (long i = 1; i <= substeps; ++i) {
+        for (const auto& body : body_)
+            if (!body->stopped())
+                body->begin_force(gravity);
+        const ContactTally tally = exchange_.add_forces(dt);
+        stats_.contact_tests += tally.tests;
+        stats_.contact_points += tally.bearing;
+        exchange_.advance(dt);
+        for (const auto& body : body_)
+            if (!body->stopped()) {
+                body->advance(dt);
+                stats_.element_steps += body->mesh().element_count();
+            }
+        ++stats_.substeps;
+        if (i % kWatchInterval == 0 || i == substeps)
+            if (!all_sound())
+                return false;
+        if (observed)
+            show_substep(time_ + static_cast<double>(i) * dt, dt);
+    }
+    for (const auto& body : body_)
+        body->end_step();
+    return true;
+}
+
+bool SoftWorld::all_sound() noexcept {
+    const auto failed = std::find_if(body_.begin(), body_.end(), [](const auto& body) {
+        return !body->stopped() &&
+               !(body->extremes().max_stretch < kStretchLimit && body->is_finite());
+    });
+    if (failed == body_.end())
+        return true;
+    for (const auto& body : body_)
+        body->roll_back();
+    // Once more with the substep that the stretch reached asks for; then no more.
+    Body& body = **failed;
+    if (++body.failures_ > 1) {
+        body.stop();
+        report(format("soft body %td went unstable at t = %g s (substep %g s, redone at %g s) and is "
+                      "stopped; give it a smaller substep, a stiffer material or a gentler blow",
+                      failed - body_.begin(), time_, body.substep(), body.substep() / kStretchLimit));
+    }
+    return false;
+}
+
+void SoftWorld::show_substep(double time, double dt) noexcept {
+    const auto start = Clock::now();
+    for (const auto& body : body_) {
+        if (body->stopped())
+            continue;
+        for (const auto& observer : observer_)
+            if (observer->wants_substeps()) {
+                observer->on_substep({*body, time, dt});
+                ++stats_.observer_calls;
+            }
+    }
+    stats_.observer_seconds += seconds_since(start);
+}
+
+void SoftWorld::watch_step() noexcept {
+    const auto start = Clock::now();
+    for (const auto& observer : observer_)
+        observer->on_step(*this, time_);
+    const double spent = seconds_since(start);
+    stats_.observer_seconds += spent;
+    stats_.seconds += spent;
+}
+
+} // namespace ode::soft
