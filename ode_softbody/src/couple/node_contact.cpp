@@ -47,13 +47,14 @@ NodeContact::NodeContact(const SurfaceNodes& nodes, dGeomID geom)
     : nodes_(nodes), geom_(geom), stiffness_(nodes.node.size()), damping_(nodes.node.size()),
       anchor_(nodes.node.size(), Vec3::Zero()), anchored_(nodes.node.size(), 0) {
     candidate_.reserve(nodes.node.size());
+    touch_.reserve(nodes.node.size());
 }
 
 void NodeContact::begin_step(const RigidShape& shape, const ContactLaw& law,
                              std::span<const double> inverse_mass, double dt) noexcept {
     if (!same_shape(shape, shape_)) {
         std::fill(anchored_.begin(), anchored_.end(), std::uint8_t{0});
-        bearing_ = 0;
+        touch_.clear();
         softening_ = 1;
     }
     shape_ = shape;
@@ -98,29 +99,29 @@ ContactTally NodeContact::add_force(const NodeArray& position, const NodeArray& 
         tally.tests += nodes_.node.size();
     }
     look_again_in_ -= dt;
-    bearing_ = 0;
-    if (!candidate_.empty())
-        with_distance(shape_.kind, [&](auto distance_of) {
-            sum_forces(distance_of, position, velocity, rigid, dt, force);
+    touch_.clear();
+    softening_ = 1;
+    if (!candidate_.empty()) {
+        const double load = with_distance(shape_.kind, [&](auto distance_of) {
+            return find_touching(distance_of, position, rigid, dt);
         });
-    tally.tests += candidate_.size();
-    tally.bearing = bearing_;
-    softening_ = bearing_ == 0 ? 1 : rigid.softening();
+        tally.tests += candidate_.size();
+        if (!touch_.empty()) {
+            softening_ = rigid.soften(load);
+            push(position, velocity, rigid, force);
+        }
+    }
+    tally.bearing = touch_.size();
     return tally;
 }
 
 template <class Distance>
-void NodeContact::sum_forces(Distance distance_of, const NodeArray& position,
-                             const NodeArray& velocity, RigidShadow& rigid, double dt,
-                             NodeArray& force) noexcept {
-    const RigidMotion& motion = rigid.motion();
-    const Pose pose = shape_.pose.in(motion.pose);
-    const double soft = rigid.softening();
-    Wrench reaction;
+double NodeContact::find_touching(Distance distance_of, const NodeArray& position,
+                                  const RigidShadow& rigid, double dt) noexcept {
+    const Pose pose = shape_.pose.in(rigid.motion().pose);
     double load = 0;
     for (const int i : candidate_) {
-        const std::size_t n = index(nodes_.node[index(i)]);
-        const Vec3 x = position[n];
+        const Vec3 x = position[index(nodes_.node[index(i)])];
         const Vec3 local = pose.to_local(x);
         const SurfaceDistance gap = distance_of(shape_.size, local);
         if (gap.distance >= 0) {
@@ -128,37 +129,47 @@ void NodeContact::sum_forces(Distance distance_of, const NodeArray& position,
             continue;
         }
         const Vec3 normal = pose.rotation * gap.normal;
-        const Vec3 slip = velocity[n] - motion.velocity_at(x);
-        const double k = soft * stiffness_[index(i)];
-        const double c = soft * damping_[index(i)];
-        const double parting = slip.dot(normal);
-        const double press = std::fmax(0, -k * gap.distance - c * parting);
+        load +=
+            (stiffness_[index(i)] * dt + 2 * damping_[index(i)]) * dt * rigid.compliance(x, normal);
+        touch_.push_back({i, local, gap.normal, normal, -gap.distance});
+    }
+    return load;
+}
 
-        Vec3& anchor = anchor_[index(i)];
-        if (!anchored_[index(i)]) {
-            anchored_[index(i)] = 1;
-            anchor = local;
+void NodeContact::push(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid,
+                       NodeArray& force) noexcept {
+    const RigidMotion& motion = rigid.motion();
+    const Pose pose = shape_.pose.in(motion.pose);
+    Wrench reaction;
+    for (const Touch& touch : touch_) {
+        const std::size_t i = index(touch.node);
+        const std::size_t n = index(nodes_.node[i]);
+        const Vec3 x = position[n];
+        const Vec3 slip = velocity[n] - motion.velocity_at(x);
+        const double k = softening_ * stiffness_[i];
+        const double c = softening_ * damping_[i];
+        const double parting = slip.dot(touch.normal);
+        const double press = std::fmax(0, k * touch.depth - c * parting);
+
+        if (!anchored_[i]) {
+            anchored_[i] = 1;
+            anchor_[i] = touch.local;
         }
-        const double grip = law_.friction * press;
-        Vec3 stretch = local - anchor;
-        stretch -= gap.normal.dot(stretch) * gap.normal;
+        const double grip = press > 0 ? law_.friction * press : 0; // friction may be infinite
+        Vec3 stretch = touch.local - anchor_[i];
+        stretch -= touch.across.dot(stretch) * touch.across;
         if (clamp(stretch, grip / (kTangential * k)))
-            anchor = local - stretch;
+            anchor_[i] = touch.local - stretch;
         Vec3 f = pose.rotation * (-kTangential * k * stretch) -
-                 kTangential * c * (slip - parting * normal);
+                 kTangential * c * (slip - parting * touch.normal);
         clamp(f, grip);
-        f += press * normal;
+        f += press * touch.normal;
 
         force[n] += f;
         reaction.force -= f;
         reaction.torque -= (x - motion.pose.position).cross(f);
-        load += (k * dt + 2 * c) * dt * rigid.compliance(x, normal);
-        ++bearing_;
     }
-    if (bearing_ == 0)
-        return;
     rigid.add(reaction);
-    rigid.add_load(load);
 }
 
 } // namespace ode::soft

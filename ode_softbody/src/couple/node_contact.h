@@ -57,7 +57,7 @@ public:
                            double dt, NodeArray& force) noexcept;
 
     /// Some node bore force in the last substep.
-    bool bearing() const noexcept { return bearing_ != 0; }
+    bool bearing() const noexcept { return !touch_.empty(); }
     /// What a light body's shadow asked of the contact in the last substep, to be handed to the
     /// shadow of the next step; 1 when nothing bears.
     double softening() const noexcept { return softening_; }
@@ -66,9 +66,21 @@ private:
     void find_candidates(const NodeArray& position, const NodeArray& velocity,
                          const RigidMotion& motion) noexcept;
 
+    /// A node inside the shape.
+    struct Touch {
+        int node;    ///< of the surface
+        Vec3 local;  ///< where it is in the shape's frame [m]
+        Vec3 across; ///< outward normal in the shape's frame
+        Vec3 normal; ///< the same in the world's
+        double depth;
+    };
+
+    /// Fills touch_. @return what the contacts ask of the rigid body's stability.
     template <class Distance>
-    void sum_forces(Distance distance_of, const NodeArray& position, const NodeArray& velocity,
-                    RigidShadow& rigid, double dt, NodeArray& force) noexcept;
+    double find_touching(Distance distance_of, const NodeArray& position, const RigidShadow& rigid,
+                         double dt) noexcept;
+    void push(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid,
+              NodeArray& force) noexcept;
 
     const SurfaceNodes& nodes_;
     dGeomID geom_;
@@ -80,9 +92,9 @@ private:
     std::vector<Vec3> anchor_;           ///< end of the friction spring, in the shape's frame [m]
     std::vector<std::uint8_t> anchored_; ///< whether there is one
     std::vector<int> candidate_;         ///< surface nodes near the shape
+    std::vector<Touch> touch_;           ///< of the last substep
     double look_again_in_ = 0;           ///< [s]
-    std::size_t bearing_ = 0;
-    double softening_ = 1; ///< in the last substep
+    double softening_ = 1;               ///< in the last substep
 };
 
 } // namespace ode::soft

@@ -76,6 +76,12 @@ double RigidShadow::compliance(const Vec3& point, const Vec3& normal) const noex
     return inverse_mass_ + lever.dot(inverse_inertia_world_ * lever);
 }
 
+double RigidShadow::soften(double load) noexcept {
+    load_ += load;
+    softening_ = std::fmin(softening_, kRigidBudget / load_);
+    return softening_;
+}
+
 void RigidShadow::advance(double dt) noexcept {
     if (role_ == RigidRole::fixed)
         return;
@@ -100,7 +106,8 @@ void RigidShadow::advance(double dt) noexcept {
     drift(dt);
     update_motion();
     contact_ = {};
-    softening_ = load_ == 0 ? 1 : softening_ * std::fmin(1, kRigidBudget / load_);
+    if (load_ == 0)
+        softening_ = 1;
     load_ = 0;
     last_dt_ = dt;
 }

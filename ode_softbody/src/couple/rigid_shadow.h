@@ -52,10 +52,11 @@ public:
     /// 0 when the body can't be moved.
     double compliance(const Vec3& point, const Vec3& normal) const noexcept;
 
-    /// Tells how stiff the contacts of this substep are: sum of (k dt^2 + 2 c dt) compliance().
-    void add_load(double load) noexcept { load_ += load; }
-    /// Factor on contact stiffness and damping that keeps a light body's explicit step stable.
-    /// Falls while contacts bear (which can only lose energy).
+    /// Announces contacts of this substep before they push. @param load  how much they ask of
+    /// explicit stability: sum of (k dt^2 + 2 c dt) compliance().
+    /// @return factor on their stiffness and damping that a light body needs. It falls while
+    /// contacts bear, which can only lose energy, and is 1 again after a substep without any.
+    double soften(double load) noexcept;
     double softening() const noexcept { return softening_; }
     /// A contact that goes on carries its factor from step to step.
     void set_softening(double factor) noexcept { softening_ = factor; }

@@ -18,7 +18,8 @@ namespace ode::soft {
 namespace {
 
 /// ODE's own definition: the next one after this library's.
-template <class Function> Function* next(const char* name) noexcept {
+template <class Function>
+Function* next(const char* name) noexcept {
     return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 

@@ -67,15 +67,16 @@ TEST_P(RigidShapeDistance, IsTheRadiusOfTheLargestBallOnOneSide) {
 
 TEST_P(RigidShapeDistance, NormalIsTheGradient) {
     const RigidShape& shape = GetParam();
-    constexpr double h = 1e-6; // error of the central difference: 1e-12 of curvature, 1e-10 rounding
+    constexpr double h =
+        1e-6; // error of the central difference: 1e-12 of curvature, 1e-10 rounding
     for (int i = 0; i < 500; ++i) {
         const Vec3 p = random_point();
         const auto [d, n] = shape.distance(p);
         Vec3 slope;
         for (int axis = 0; axis < 3; ++axis) {
             const Vec3 step = h * Vec3::Unit(axis);
-            slope[axis] = (shape.distance(p + step).distance - shape.distance(p - step).distance) /
-                          (2 * h);
+            slope[axis] =
+                (shape.distance(p + step).distance - shape.distance(p - step).distance) / (2 * h);
         }
         if (std::fabs(slope.norm() - 1) < 1e-6) { // off the medial surface, where it jumps
             ASSERT_LT((slope - n).norm(), 1e-6) << p.transpose();

@@ -219,9 +219,7 @@ TEST(SoftGeom, EndsWithItsSpaceOrByItsOwner) {
     dCloseODE();
 }
 
-dColliderFn* no_collider(int) {
-    return nullptr;
-}
+dColliderFn* no_collider(int) { return nullptr; }
 
 // The application's class gets the number that ours had before ODE was closed.
 TEST(SoftGeom, FindsItsClassAnewAfterOdeWasClosed) {
