@@ -1,6 +1,6 @@
 // Nanoseconds of one core for the force of one element, and what share that is of the multiply-adds
 // that the same core reaches in a loop that does nothing else (fma_peak.h).
-#include "box_mesh.h"
+#include "unit/model/box_mesh.h"
 #include "counting_lane.h"
 #include "fma_peak.h"
 
