@@ -10,6 +10,7 @@ namespace ode::soft {
 namespace {
 
 const Solid kSteel{.young = 200e9, .poisson = 0.29, .density = 7850};
+const Solid kNafems{.young = 200e9, .poisson = 0.3, .density = 8000};
 const Solid kAluminium{.young = 69e9, .poisson = 0.33, .density = 2700};
 
 /// Kinetic shares of the x, y and z motion, nodes counted alike: tells bending from torsion.
@@ -36,8 +37,8 @@ std::vector<int> nodes_where(const TetMesh& mesh, const std::function<bool(const
     return out;
 }
 
-// A1. A slender clamped bar. A solid's clamp also stops the section from breathing, which the beam
-// allows: a stiffening of order nu^2 thickness / length, up to 0.5 % measured on fine meshes.
+// A1. A solid's clamp also stops the section from narrowing, which the beam's allows: 6.7 cents on
+// twice as fine a mesh, for each of the flat modes.
 TEST(ClosedForm, ClampedBarBendsAsTimoshenkoSays) {
     const TetMesh mesh = make_bar(0.3, 0.02, 0.01, 24, 2, 1);
     ModalOptions options;
@@ -53,13 +54,13 @@ TEST(ClosedForm, ClampedBarBendsAsTimoshenkoSays) {
     ASSERT_GE(flat.size(), 4u);
     ASSERT_GE(edgewise.size(), 2u);
     for (std::size_t i = 0; i < 4; ++i)
-        EXPECT_NEAR(cents(flat[i], expected[i]), 4, 5) << i;
+        EXPECT_NEAR(cents(flat[i], expected[i]), 6.7, 3.5) << i;
     for (std::size_t i = 0; i < 2; ++i)
-        EXPECT_NEAR(cents(edgewise[i], other[i]), 4, 8) << i;
+        EXPECT_NEAR(cents(edgewise[i], other[i]), 6.7, 5) << i;
     // Euler-Bernoulli: b = 1.87510; shear and rotary inertia take less than 0.1 % off here.
     const double euler = 1.87510 * 1.87510 / (2 * std::numbers::pi * 0.09) *
                          std::sqrt(69e9 * 0.01 * 0.01 / 12 / 2700);
-    EXPECT_NEAR(cents(flat[0], euler), 4, 6);
+    EXPECT_NEAR(cents(flat[0], euler), 6.7, 3.5);
 }
 
 // A2. The reference of 574.2 Hz is Timoshenko's.
@@ -87,7 +88,8 @@ TEST(ClosedForm, FreeBarBendsAndStretchesAsItShould) {
     EXPECT_NEAR(cents(axial[0], rod * (1 - lateral)), 0, 1);
 }
 
-// A3. Leissa (1973) table C1, thin plate: at a/h = 100 shear takes off some 0.1 to 0.3 %.
+// A3. Leissa (1973) table C1, thin plate. Clamped edges of a solid are singular, so convergence is
+// slow: 16.9, 10.8, 6.7 and 4.1 cents of the first at 10, 14, 20 and 28 cells a side.
 TEST(ClosedForm, ClampedSquarePlateAgreesWithLeissa) {
     const TetMesh mesh = make_plate(0.3, 0.3, 0.003, 14, 14, 1);
     ModalOptions options;
@@ -101,39 +103,79 @@ TEST(ClosedForm, ClampedSquarePlateAgreesWithLeissa) {
     const double unit = std::sqrt(d / (2700 * 0.003)) / (2 * std::numbers::pi * 0.09);
     const double lambda2[] = {35.99, 73.41, 73.41, 108.27, 131.64, 132.25, 165.15};
     for (std::size_t i = 0; i < 7; ++i)
-        EXPECT_NEAR(cents(model.frequency[i], lambda2[i] * unit), 0, 8) << i;
+        EXPECT_NEAR(cents(model.frequency[i], lambda2[i] * unit), 6, 6) << i;
     EXPECT_NEAR(cents(model.frequency[2], model.frequency[1]), 0, 1); // a true pair
 }
 
 // A4. NAFEMS FV12; sources differ on the pair by 1 %.
 TEST(ClosedForm, FreeSquarePlateAgreesWithNafemsFv12) {
     const TetMesh mesh = make_plate(10, 10, 0.05, 12, 12, 1);
-    const Solid steel{.young = 200e9, .poisson = 0.3, .density = 8000};
     ModalOptions options;
     options.order = 3;
     options.max_modes = 5;
-    const ModalModel model = solve_modes(mesh, std::span(&steel, 1), options);
+    const ModalModel model = solve_modes(mesh, std::span(&kNafems, 1), options);
     EXPECT_EQ(model.rigid_modes, 6);
     const double expected[] = {1.622, 2.360, 2.922, 4.21, 4.21};
     for (std::size_t i = 0; i < 5; ++i)
         EXPECT_NEAR(cents(model.frequency[i], expected[i]), 0, i < 3 ? 4 : 10) << i;
 }
 
-// A4. NAFEMS FV52: lower edges held vertically, so three rigid motions stay in the plane.
-TEST(ClosedForm, SimplySupportedThickPlateAgreesWithNafemsFv52) {
+// A4. NAFEMS FV52: lower edges held vertically, so three rigid motions stay in the plane. The
+// reference is Mindlin's; in a solid a line support gives way (its compliance is logarithmic in the
+// element size), so these lie 80 to 125 cents lower.
+TEST(ClosedForm, PlateOnItsLowerEdgesIsNearNafemsFv52) {
     const TetMesh mesh = make_plate(10, 10, 1, 8, 8, 1);
-    const Solid steel{.young = 200e9, .poisson = 0.3, .density = 8000};
     ModalOptions options;
     options.order = 3;
     options.max_modes = 4;
     options.rollers[2] = nodes_where(mesh, [](const Vec3& x) {
         return x.z() < -0.5 + 1e-9 && std::max(std::abs(x.x()), std::abs(x.y())) > 5 - 1e-9;
     });
-    const ModalModel model = solve_modes(mesh, std::span(&steel, 1), options);
+    const ModalModel model = solve_modes(mesh, std::span(&kNafems, 1), options);
     EXPECT_EQ(model.rigid_modes, 3);
     const double expected[] = {45.897, 109.44, 109.44, 167.89};
     for (std::size_t i = 0; i < 4; ++i)
-        EXPECT_NEAR(cents(model.frequency[i], expected[i]), 0, 80) << i;
+        EXPECT_NEAR(cents(model.frequency[i], expected[i]), -100, 30) << i;
+}
+
+// The same plate with rollers on its whole edge faces has an exact solution: Rayleigh-Lamb waves
+// standing between them (Srinivas, Rao and Rao 1970, doi:10.1016/0022-460X(70)90089-1). Bending,
+// below the cut-off of shear: tanh(Q h/2) / tanh(P h/2) = (k^2 + Q^2)^2 / (4 k^2 P Q), P^2 = k^2 -
+// w^2/c_l^2, Q^2 = k^2 - w^2/c_t^2.
+TEST(ClosedForm, ThickPlateOnRollersIsExact) {
+    const TetMesh mesh = make_plate(10, 10, 1, 8, 8, 1);
+    ModalOptions options;
+    options.order = 3;
+    options.max_frequency = 180;
+    const auto at = [&](int axis) {
+        return nodes_where(mesh, [=](const Vec3& x) { return std::abs(x[axis]) > 5 - 1e-9; });
+    };
+    options.rollers[0] = at(1);
+    options.rollers[1] = at(0);
+    options.rollers[2] = at(0);
+    const auto other = at(1);
+    options.rollers[2].insert(options.rollers[2].end(), other.begin(), other.end());
+    const ModalModel model = solve_modes(mesh, std::span(&kNafems, 1), options);
+    EXPECT_EQ(model.rigid_modes, 0);
+    const double shear2 = kNafems.mu() / kNafems.density;
+    const double compression2 = (kNafems.lambda() + 2 * kNafems.mu()) / kNafems.density;
+    const auto bending = frequencies_along(model, 2);
+    ASSERT_GE(bending.size(), 4u);
+    const int waves[][2] = {{1, 1}, {1, 2}, {2, 1}, {2, 2}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double pi = std::numbers::pi;
+        const double k2 = pi * pi / 100 * (waves[i][0] * waves[i][0] + waves[i][1] * waves[i][1]);
+        const double exact = roots(
+            [&](double f) {
+                const double w2 = 4 * pi * pi * f * f;
+                const double p = std::sqrt(k2 - w2 / compression2);
+                const double q = std::sqrt(k2 - w2 / shear2);
+                return std::tanh(q / 2) * 4 * k2 * p * q -
+                       std::tanh(p / 2) * (k2 + q * q) * (k2 + q * q);
+            },
+            20, 1, 1)[0];
+        EXPECT_NEAR(cents(bending[i], exact), 0, 2) << i;
+    }
 }
 
 /// Spherical Bessel functions of the first kind, by upward recurrence (l <= x or nearly).
