@@ -1,0 +1,102 @@
+#include "api/sink.h"
+
+#include "sink/file_sink.h"
+#include "sink/memory_sink.h"
+#include "sink/null_sink.h"
+#include "sink/openal_sink.h"
+
+#include <ode/error.h>
+
+#include <exception>
+#include <new>
+#include <utility>
+
+using namespace ode::sound;
+
+namespace {
+
+/// A new id around what `make` returns; NULL and a message where that throws.
+template <class Make>
+dSoundSinkID create(const char* function, Make&& make) noexcept {
+    try {
+        return new dxSoundSink{std::forward<Make>(make)()};
+    } catch (const std::bad_alloc&) {
+        dMessage(0, "%s: out of memory", function);
+    } catch (const std::exception& e) {
+        dMessage(0, "%s: %s", function, e.what());
+    }
+    return nullptr;
+}
+
+void require(const void* pointer, const char* function) noexcept {
+    if (!pointer)
+        dDebug(0, "%s: NULL was passed; a create function that failed has said why", function);
+}
+
+} // namespace
+
+dSoundSinkID dSoundSinkCreateNull(void) {
+    return create(__func__, [] { return std::make_shared<NullSink>(); });
+}
+
+dSoundSinkID dSoundSinkCreateMemory(void) {
+    return create(__func__, [] { return std::make_shared<MemorySink>(); });
+}
+
+dSoundSinkID dSoundSinkCreateFile(const char* path) {
+    require(path, __func__);
+    return create(__func__, [path] { return std::make_shared<FileSink>(path); });
+}
+
+dSoundSinkID dSoundSinkCreateOpenAL(void) {
+    const char* const function = __func__;
+    return create(function, [function]() -> std::shared_ptr<Sink> {
+        try {
+            return std::make_shared<OpenAlSink>(
+                OpenAlDevice::open_default(),
+                [](const char* sentence) { dMessage(0, "%s", sentence); });
+        } catch (const Refused& e) {
+            dMessage(0, "%s: %s (a null sink takes its place)", function, e.what());
+            return std::make_shared<NullSink>();
+        }
+    });
+}
+
+void dSoundSinkDestroy(dSoundSinkID sink) {
+    if (!sink)
+        return;
+    sink->sink->close();
+    delete sink;
+}
+
+const char* dSoundSinkGetKind(dSoundSinkID sink) {
+    require(sink, __func__);
+    return sink->sink->kind();
+}
+
+unsigned long dSoundSinkGetSamples(dSoundSinkID sink, const float** first, int* channels) {
+    require(sink, __func__);
+    require(first, __func__);
+    require(channels, __func__);
+    const auto* memory = dynamic_cast<const MemorySink*>(sink->sink.get());
+    if (!memory) {
+        dMessage(0, "%s: a %s sink keeps no samples; use dSoundSinkCreateMemory()", __func__,
+                 sink->sink->kind());
+        *first = nullptr;
+        *channels = 0;
+        return 0;
+    }
+    *first = memory->samples().data();
+    *channels = memory->format().channels;
+    return memory->samples().size() / static_cast<unsigned long>(*channels);
+}
+
+const char* dSoundSinkGetError(dSoundSinkID sink) {
+    require(sink, __func__);
+    return sink->sink->error();
+}
+
+unsigned long dSoundSinkGetBacklog(dSoundSinkID sink) {
+    require(sink, __func__);
+    return sink->sink->backlog();
+}
