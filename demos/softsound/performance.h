@@ -4,7 +4,7 @@
 #include "softsound/command.h"
 
 #include <memory>
-#include <ode_sound/sound.h>
+#include <ode_sound/sound.hpp>
 #include <span>
 #include <string>
 #include <vector>
