@@ -21,8 +21,8 @@ std::unique_ptr<FileWriter> writer_for(const std::string& path) {
         return make_wav_writer();
     if (ending == ".flac")
         return make_flac_writer();
-    throw Refused("'" + path + "': the ending '" + ending + "' names no sound format; end the path in " +
-                  FileSink::formats());
+    throw Refused("'" + path + "': the ending '" + ending +
+                  "' names no sound format; end the path in " + FileSink::formats());
 }
 
 const char* cure(int error) noexcept {
@@ -129,9 +129,10 @@ void FileSink::fail(const char* reason) noexcept {
         error_.set("%s: cannot be written (%s); free space or choose another path", path_.c_str(),
                    reason);
     else
-        error_.set("%s: %s after %.2f s of sound, which stay in the file; free space or name a file "
-                   "on another disk",
-                   path_.c_str(), reason, static_cast<double>(writer_->frames()) / format_.rate);
+        error_.set(
+            "%s: %s after %.2f s of sound, which stay in the file; free space or name a file "
+            "on another disk",
+            path_.c_str(), reason, static_cast<double>(writer_->frames()) / format_.rate);
     writer_->finish();
     ::close(descriptor_);
     descriptor_ = -1;
