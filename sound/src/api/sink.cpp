@@ -1,63 +1,58 @@
-#include "api/sink.h"
-
+#include "api/guard.h"
+#include "api/ids.h"
 #include "sink/file_sink.h"
 #include "sink/memory_sink.h"
 #include "sink/null_sink.h"
 #include "sink/openal_sink.h"
 
-#include <ode/error.h>
+#include <memory>
 
-#include <exception>
-#include <new>
-#include <utility>
+/// A listener borrows the sink; dSoundSinkDestroy() takes it from the listener first.
+struct dxSoundSink {
+    std::unique_ptr<ode::sound::Sink> sink;
+};
+
+namespace ode::sound {
+
+Sink& sink_of(dSoundSinkID sink) noexcept { return *sink->sink; }
+
+} // namespace ode::sound
 
 using namespace ode::sound;
 
 namespace {
 
-/// A new id around what `make` returns; NULL and a message where that throws.
+/// A new id around what `make` returns.
 template <class Make>
 dSoundSinkID create(const char* function, Make&& make) noexcept {
-    try {
-        return new dxSoundSink{std::forward<Make>(make)()};
-    } catch (const std::bad_alloc&) {
-        dMessage(0, "%s: out of memory", function);
-    } catch (const std::exception& e) {
-        dMessage(0, "%s: %s", function, e.what());
-    }
-    return nullptr;
-}
-
-void require(const void* pointer, const char* function) noexcept {
-    if (!pointer)
-        dDebug(0, "%s: NULL was passed; a create function that failed has said why", function);
+    return guarded(function, dSoundSinkID{}, [&] { return new dxSoundSink{make()}; });
 }
 
 } // namespace
 
 dSoundSinkID dSoundSinkCreateNull(void) {
-    return create(__func__, [] { return std::make_shared<NullSink>(); });
+    return create(__func__, [] { return std::make_unique<NullSink>(); });
 }
 
 dSoundSinkID dSoundSinkCreateMemory(void) {
-    return create(__func__, [] { return std::make_shared<MemorySink>(); });
+    return create(__func__, [] { return std::make_unique<MemorySink>(); });
 }
 
 dSoundSinkID dSoundSinkCreateFile(const char* path) {
-    require(path, __func__);
-    return create(__func__, [path] { return std::make_shared<FileSink>(path); });
+    require_id(path, __func__);
+    return create(__func__, [path] { return std::make_unique<FileSink>(path); });
 }
 
 dSoundSinkID dSoundSinkCreateOpenAL(void) {
     const char* const function = __func__;
-    return create(function, [function]() -> std::shared_ptr<Sink> {
+    return create(function, [function]() -> std::unique_ptr<Sink> {
         try {
-            return std::make_shared<OpenAlSink>(
+            return std::make_unique<OpenAlSink>(
                 OpenAlDevice::open_default(),
                 [](const char* sentence) { dMessage(0, "%s", sentence); });
         } catch (const Refused& e) {
             dMessage(0, "%s: %s (a null sink takes its place)", function, e.what());
-            return std::make_shared<NullSink>();
+            return std::make_unique<NullSink>();
         }
     });
 }
@@ -65,19 +60,20 @@ dSoundSinkID dSoundSinkCreateOpenAL(void) {
 void dSoundSinkDestroy(dSoundSinkID sink) {
     if (!sink)
         return;
+    let_go(*sink->sink);
     sink->sink->close();
     delete sink;
 }
 
 const char* dSoundSinkGetKind(dSoundSinkID sink) {
-    require(sink, __func__);
+    require_id(sink, __func__);
     return sink->sink->kind();
 }
 
 unsigned long dSoundSinkGetSamples(dSoundSinkID sink, const float** first, int* channels) {
-    require(sink, __func__);
-    require(first, __func__);
-    require(channels, __func__);
+    require_id(sink, __func__);
+    require_id(first, __func__);
+    require_id(channels, __func__);
     const auto* memory = dynamic_cast<const MemorySink*>(sink->sink.get());
     if (!memory) {
         dMessage(0, "%s: a %s sink keeps no samples; use dSoundSinkCreateMemory()", __func__,
@@ -92,11 +88,11 @@ unsigned long dSoundSinkGetSamples(dSoundSinkID sink, const float** first, int* 
 }
 
 const char* dSoundSinkGetError(dSoundSinkID sink) {
-    require(sink, __func__);
+    require_id(sink, __func__);
     return sink->sink->error();
 }
 
 unsigned long dSoundSinkGetBacklog(dSoundSinkID sink) {
-    require(sink, __func__);
+    require_id(sink, __func__);
     return sink->sink->backlog();
 }
