@@ -36,7 +36,9 @@ std::vector<Side> sort_sides(const Triangles& triangle) {
 
 class Sets {
 public:
-    explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
+    explicit Sets(std::size_t size) : parent_(size) {
+        std::iota(parent_.begin(), parent_.end(), 0);
+    }
     std::size_t find(std::size_t i) {
         while (parent_[i] != i)
             i = parent_[i] = parent_[parent_[i]];
@@ -165,8 +167,8 @@ CreasedSurface divide_at_creases(const TetMesh& mesh, double crease_angle) {
         }
     for (std::size_t e = 0; e < out.edge.size(); ++e)
         for (std::size_t end = 0; end < 2; ++end)
-            out.edge[e].fan[end] = static_cast<int>(fan_of(
-                corner_at(triangle, side[first_side[e]].triangle, out.edge[e].node[end])));
+            out.edge[e].fan[end] = static_cast<int>(
+                fan_of(corner_at(triangle, side[first_side[e]].triangle, out.edge[e].node[end])));
     return out;
 }
 

@@ -15,8 +15,11 @@ namespace {
 // Offsets below this share of the edge are rounding of coordinates, not curvature: 1e-6 is the
 // sagitta of a circle of 125 000 edge lengths radius.
 constexpr double kFlatOffset = 1e-6;
-// After so many halvings an element's edges are straight to a thousandth; then they become straight.
-constexpr int kHalvings = 10;
+// Where the guard trips an offset shrinks by this factor. Halving would do too, but overshoots:
+// nine facets round a thick tube then miss its volume by 4.7 % in place of 1.8 %.
+constexpr double kShrink = 0.8;
+// After so many times an offset is down to a thousandth; then the edge becomes straight.
+constexpr int kMostShrinks = 30;
 
 // Midpoint offset of the circular arc over a chord whose end tangents t0, t1 are unit vectors that
 // point along it: with t0 - t1 = 2 sin(phi) b across the chord, (d/2) tan(phi/2) b is
@@ -71,7 +74,7 @@ Vec3 smooth_offset(const TetMesh& mesh, const CreasedSurface& surface, const Fac
 struct MovedEdge {
     int mid;     // node
     Vec3 offset; // from the middle of the chord
-    int halvings = 0;
+    int shrinks = 0;
 };
 
 } // namespace
@@ -121,7 +124,8 @@ CurveReport curve_surface(TetMesh& mesh, const CurveOptions& options) {
         mesh.node[static_cast<std::size_t>(m.mid)] += m.offset;
     }
     std::vector<bool> shorten(moved.size());
-    // Ends: an element that is still bad has an edge that is still curved, and each round shortens it.
+    // Ends: an element that is still bad has an edge that is still curved, and each round shortens
+    // it.
     for (bool any = true; any;) {
         any = false;
         std::fill(shorten.begin(), shorten.end(), false);
@@ -130,19 +134,19 @@ CurveReport curve_surface(TetMesh& mesh, const CurveOptions& options) {
                 continue;
             for (const int node : mesh.nodes_of(e).subspan(4))
                 if (const int m = moved_at[static_cast<std::size_t>(node)];
-                    m >= 0 && moved[static_cast<std::size_t>(m)].halvings < kHalvings)
+                    m >= 0 && moved[static_cast<std::size_t>(m)].shrinks < kMostShrinks)
                     any = shorten[static_cast<std::size_t>(m)] = true;
         }
         for (std::size_t m = 0; m < moved.size(); ++m) {
             if (!shorten[m])
                 continue;
-            moved[m].offset *= ++moved[m].halvings < kHalvings ? 0.5 : 0.0;
+            moved[m].offset *= ++moved[m].shrinks < kMostShrinks ? kShrink : 0.0;
             mesh.node[static_cast<std::size_t>(moved[m].mid)] = straight[m] + moved[m].offset;
         }
     }
     for (const MovedEdge& m : moved) {
-        report.limited += m.halvings > 0 ? 1 : 0;
-        report.moved += m.halvings < kHalvings ? 1 : 0;
+        report.limited += m.shrinks > 0 ? 1 : 0;
+        report.moved += m.shrinks < kMostShrinks ? 1 : 0;
     }
     return report;
 }

@@ -10,7 +10,7 @@ namespace ode::soft {
 struct CurveOptions {
     /// Dihedral of facets from which their edge is meant to be sharp [rad].
     double crease_angle = 50.0 * std::numbers::pi / 180.0;
-    /// relative_jacobian() that every element keeps; offsets are halved until it does.
+    /// relative_jacobian() that every element keeps; offsets shrink until it does.
     double least_jacobian = 0.15;
 };
 

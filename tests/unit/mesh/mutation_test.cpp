@@ -47,8 +47,9 @@ INSTANTIATE_TEST_SUITE_P(, Mutated, testing::ValuesIn(test::all_dresses()),
                              return dress.param.name;
                          });
 
-// The short, repeatable sister of tests/fuzz: a damaged file is refused by name or gives a mesh that
-// passes the checks; nothing else is thrown. Both must happen, or the test would prove nothing.
+// The short, repeatable sister of tests/fuzz: a damaged file is refused by name or gives a mesh
+// that passes the checks; nothing else is thrown. Both must happen, or the test would prove
+// nothing.
 TEST_P(Mutated, FileIsRefusedOrGivesASoundMesh) {
     const std::string whole = GetParam().write(make_box({1, 1, 1}, 1, 2, 1));
     std::mt19937 random(20011);

@@ -49,8 +49,9 @@ std::vector<Bad> bad_files() {
          std::string(kHead2) + kNodes2 + "$Elements\n1\n7 5 2 0 1 1 2 3 4 1 2 3 4\n$EndElements\n",
          "f, line 14: element 7 is a hexahedron: save the volume as tetrahedra of 4 or 10 nodes"},
         {"third_order", read_gmsh,
-         std::string(kHead4) + "$Nodes\n0 0 0 0\n$EndNodes\n$Elements\n1 1 1 1\n3 1 29 1\n1 1 2 3 4 "
-                               "5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20\n$EndElements\n",
+         std::string(kHead4) +
+             "$Nodes\n0 0 0 0\n$EndNodes\n$Elements\n1 1 1 1\n3 1 29 1\n1 1 2 3 4 "
+             "5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20\n$EndElements\n",
          "f, line 9: element 1 is a tetrahedron of 20 nodes: save the volume as tetrahedra of 4 or "
          "10 nodes"},
         {"mixed_orders", read_gmsh,
@@ -133,7 +134,8 @@ protected:
     }
     std::filesystem::path folder_ =
         std::filesystem::temp_directory_path() /
-        ("ode_softbody_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        ("ode_softbody_" +
+         std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
 };
 
 TEST_F(ReadFile, TakesEitherFileOfTetGen) {
@@ -172,7 +174,8 @@ TEST_F(ReadFile, RefusesWhatItCannotOpen) {
     EXPECT_THAT(refusal(write("lonely.node", "1 3 0 0\n")),
                 HasSubstr("lonely.ele: cannot be read (No such file"));
     std::filesystem::create_directories(folder_ / "folder.msh");
-    EXPECT_THAT(refusal((folder_ / "folder.msh").string()), HasSubstr("is a directory: give a file"));
+    EXPECT_THAT(refusal((folder_ / "folder.msh").string()),
+                HasSubstr("is a directory: give a file"));
 }
 
 } // namespace
