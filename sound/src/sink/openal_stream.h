@@ -14,8 +14,8 @@
 namespace ode::sound {
 
 /// Feeds an OpenAL source from a ring through a queue of three buffers, each as long as the
-/// device's period but at least 256 frames: 16 ms at 48 kHz where the device is configured for low
-/// latency, 64 ms with OpenAL Soft's default period of 1024. Fewer or shorter buffers run dry
+/// device's period but at least 256 frames: 18 ms at 48 kHz where the device is configured for low
+/// latency, 70 ms with OpenAL Soft's default period. Fewer or shorter buffers run dry
 /// whenever the device takes a whole period at once.
 ///
 /// The source reaches the loudspeakers as it is: relative to the listener, direct channels, no

@@ -7,6 +7,7 @@
 #include "sink/null_sink.h"
 #include "sink/openal_sink.h"
 
+#include <algorithm>
 #include <chrono>
 #include <gtest/gtest.h>
 #include <thread>
@@ -46,12 +47,14 @@ TEST(Sinks, ReceiveTheSameBits) {
     std::vector<float> heard;
     const auto give_up = std::chrono::steady_clock::now() + 20s;
     while (heard.size() < x.size() && std::chrono::steady_clock::now() < give_up) {
-        // The feeder fills the queue with three buffers before the first is due; from then on it
-        // has reported all that was rendered before the next is asked for.
-        if (kFrames - live.backlog() != heard.size() / 2 || heard.empty())
-            std::this_thread::sleep_for(heard.empty() ? 50ms : 1ms);
-        if (kFrames - live.backlog() == heard.size() / 2)
-            loopback.render(256, heard);
+        // What the feeder reports as played it has refilled; so the queue is full here.
+        if (kFrames - live.backlog() != heard.size() / 2) {
+            std::this_thread::sleep_for(1ms);
+            continue;
+        }
+        loopback.render(256, heard);
+        if (std::ranges::all_of(heard, [](float sample) { return sample == 0; }))
+            heard.clear(); // the feeder's thread has yet to start
         if (heard.size() / 2 == kFrames - 3 * 256) {
             EXPECT_EQ(live.underruns(), 0U) << "before the stream ends";
         }
