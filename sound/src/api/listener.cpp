@@ -10,7 +10,8 @@
 namespace ode::sound {
 namespace {
 
-/// Which listener has a sink. Worlds may be stepped by different threads; sinks may be handed about.
+/// Which listener has a sink. Worlds may be stepped by different threads; sinks may be handed
+/// about.
 struct Owners {
     std::mutex mutex;
     std::unordered_map<const Sink*, Listener*> of;
@@ -67,8 +68,8 @@ void dSoundListenerDestroy(dSoundListenerID listener) {
 int dSoundListenerSetPosition(dSoundListenerID listener, dReal x, dReal y, dReal z) {
     require_id(listener, "dSoundListenerSetPosition");
     if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
-        dMessage(0, "dSoundListenerSetPosition: (%g, %g, %g) is no place; it stays where it is", x, y,
-                 z);
+        dMessage(0, "dSoundListenerSetPosition: (%g, %g, %g) is no place; it stays where it is", x,
+                 y, z);
         return 0;
     }
     listener->listener->pose.centre = {x, y, z};
@@ -90,7 +91,8 @@ int dSoundListenerSetOrientation(dSoundListenerID listener, const dVector3 at, c
 int dSoundListenerSetEarDistance(dSoundListenerID listener, dReal distance) {
     require_id(listener, "dSoundListenerSetEarDistance");
     if (!std::isfinite(distance) || distance < 0.0) {
-        dMessage(0, "dSoundListenerSetEarDistance: distance is %g m; it must be 0 or more", distance);
+        dMessage(0, "dSoundListenerSetEarDistance: distance is %g m; it must be 0 or more",
+                 distance);
         return 0;
     }
     listener->listener->pose.ear_distance = distance;

@@ -29,8 +29,7 @@ using namespace ode::sound;
 
 dSoundWorldID dSoundWorldCreate(dSoftWorldID world) {
     require_id(world, "dSoundWorldCreate");
-    return guarded("dSoundWorldCreate", dSoundWorldID{},
-                   [&] { return new dxSoundWorld(world); });
+    return guarded("dSoundWorldCreate", dSoundWorldID{}, [&] { return new dxSoundWorld(world); });
 }
 
 void dSoundWorldDestroy(dSoundWorldID world) {
@@ -106,7 +105,8 @@ int dSoundSetRate(dSoundWorldID world, int rate) {
             return 0;
         }
         if (world->world.scene().listeners() > 0) {
-            dMessage(0, "dSoundSetRate: there are listeners already; set the rate before the first");
+            dMessage(0,
+                     "dSoundSetRate: there are listeners already; set the rate before the first");
             return 0;
         }
         Settings settings = world->world.scene().settings();

@@ -25,8 +25,8 @@ double kaiser(double u, double beta) noexcept {
 double kaiser_beta(double attenuation) noexcept { return 0.1102 * (attenuation - 8.7); }
 
 int kaiser_length(double attenuation, double transition) noexcept {
-    return 1 + static_cast<int>(std::ceil((attenuation - 7.95) /
-                                          (2.285 * 2.0 * std::numbers::pi * transition)));
+    return 1 + static_cast<int>(
+                   std::ceil((attenuation - 7.95) / (2.285 * 2.0 * std::numbers::pi * transition)));
 }
 
 double sinc(double x) noexcept {

@@ -16,7 +16,7 @@ using Ints [[gnu::vector_size(16)]] = std::int32_t;
 
 constexpr int kTaps = 16;
 constexpr int kBefore = 7;
-constexpr int kPhases = 512;
+constexpr int kPhases = 128;
 
 inline Lane load(const double* p) { return *reinterpret_cast<const Loose*>(p); }
 inline void store(double* p, const Lane& v) { *reinterpret_cast<Loose*>(p) = v; }
@@ -96,16 +96,15 @@ void areas(int triangles, const int* triangle, const double* point, double* area
         const std::int64_t j = 4 * static_cast<std::int64_t>(triangle[3 * t + 1]);
         const std::int64_t k = 4 * static_cast<std::int64_t>(triangle[3 * t + 2]);
         const Lane origin = load(point + i);
-        const Lane third = without_w(
-            sixth * cross(load(point + j) - origin, load(point + k) - origin));
+        const Lane third =
+            without_w(sixth * cross(load(point + j) - origin, load(point + k) - origin));
         store(area + i, load(area + i) + third);
         store(area + j, load(area + j) + third);
         store(area + k, load(area + k) + third);
     }
 }
 
-void mix(int nodes, int rows, const double* const* row, const double* weight,
-         double* const* flow) {
+void mix(int nodes, int rows, const double* const* row, const double* weight, double* const* flow) {
     int i = 0;
     for (; i + 8 <= nodes; i += 8) {
         Lane a[4] = {};
@@ -192,8 +191,8 @@ inline void arrive(const SplatSurface& surface, const SplatEar& ear, int i, Lane
     const Lane most = fill(ear.max_delay);
     constexpr double kSane = 1e20; // [m^2/s]
     const Lane delay = distance * fill(surface.samples_per_metre);
-    const Bits sane = (delay >= least) & (delay <= most) & (value < fill(kSane)) &
-                      (value > fill(-kSane));
+    const Bits sane =
+        (delay >= least) & (delay <= most) & (value < fill(kSane)) & (value > fill(-kSane));
     const Lane when = sane ? delay : least;
     value = sane ? value : Lane{};
     latest = sane & (when > latest) ? when : latest;
@@ -220,14 +219,22 @@ double splat(const SplatSurface& surface, const SplatEar* ear, int ears) {
         for (int k = 0; k < 4; ++k) {
             for (int e = 0; e < ears; ++e) {
                 const Arrivals& a = arrival[e];
-                double* cell = ear[e].ring[k & 1] +
-                               ((ear[e].sample + a.whole[k] - kBefore) & ear[e].mask);
+                double* cell =
+                    ear[e].ring[k & 1] + ((ear[e].sample + a.whole[k] - kBefore) & ear[e].mask);
                 const double* row = surface.table + static_cast<std::int64_t>(a.phase[k]) * kTaps;
-                const Lane late = fill(a.value[k] * a.rest[k]);
-                const Lane early = fill(a.value[k]) - late;
+                // Lagrange's cubic through the rows at -1, 0, 1, 2.
+                const double u = a.rest[k];
+                const double v = a.value[k];
+                const double outer = v * u * (1.0 - u) * (1.0 / 6.0);
+                const double inner = v * 0.5 * (1.0 + u) * (2.0 - u);
+                const Lane w0 = fill(outer * (u - 2.0));
+                const Lane w1 = fill(inner * (1.0 - u));
+                const Lane w2 = fill(inner * u);
+                const Lane w3 = fill(-outer * (1.0 + u));
                 for (int j = 0; j < kTaps; j += 4)
-                    store(cell + j, load(cell + j) + early * load(row + j) +
-                                        late * load(row + kTaps + j));
+                    store(cell + j,
+                          load(cell + j) + (w0 * load(row - kTaps + j) + w1 * load(row + j)) +
+                              (w2 * load(row + kTaps + j) + w3 * load(row + 2 * kTaps + j)));
             }
         }
     }
@@ -240,12 +247,13 @@ double splat(const SplatSurface& surface, const SplatEar* ear, int ears) {
 } // namespace
 
 extern const Kernels kKernels;
-const Kernels kKernels = {ODE_SOUND_ISA_NAME,
-                          &dot,
-                          &gather,
-                          &between,
-                          &areas,
-                          &mix,
-                          {&splat<Facing::kAll>, &splat<Facing::kVisible>, &splat<Facing::kCosine>}};
+const Kernels kKernels = {
+    ODE_SOUND_ISA_NAME,
+    &dot,
+    &gather,
+    &between,
+    &areas,
+    &mix,
+    {&splat<Facing::kAll>, &splat<Facing::kVisible>, &splat<Facing::kCosine>}};
 
 } // namespace ode::sound::ODE_SOUND_ISA_NAMESPACE

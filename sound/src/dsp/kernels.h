@@ -18,25 +18,25 @@ enum class Facing {
 /// One ear, as one sample of one surface is sent to it.
 struct SplatEar {
     static constexpr int kCopies = 2;
-    double position[4];     ///< [m]
-    double mach[4];         ///< its velocity over the speed of sound, length < 1
-    double* ring[kCopies];  ///< accumulators, added together by the reader; neighbouring nodes
-                            ///< alternate, so that their read-modify-writes do not wait
-    std::int64_t mask;      ///< ring length - 1, a power of two; kTaps more cells lie behind
-    std::int64_t sample;    ///< index in the ring's time of the sample sent
-    double gain;            ///< of this sample at this ear
-    double min_delay;       ///< delays below this or above max_delay are dropped [samples]
+    double position[4];    ///< [m]
+    double mach[4];        ///< its velocity over the speed of sound, length < 1
+    double* ring[kCopies]; ///< accumulators, added together by the reader; neighbouring nodes
+                           ///< alternate, so that their read-modify-writes do not wait
+    std::int64_t mask;     ///< ring length - 1, a power of two; kTaps more cells lie behind
+    std::int64_t sample;   ///< index in the ring's time of the sample sent
+    double gain;           ///< of this sample at this ear
+    double min_delay;      ///< delays below this or above max_delay are dropped [samples]
     double max_delay;
 };
 
 struct SplatSurface {
     int nodes;
-    const double* position;  ///< points [m]
-    const double* area;      ///< area vectors, points [m^2]; unused for Facing::kAll
-    const double* softening; ///< square of the least distance of each node [m^2]
-    const double* flow;      ///< volume per time of each node [m^3/s]
+    const double* position;   ///< points [m]
+    const double* area;       ///< area vectors, points [m^2]; unused for Facing::kAll
+    const double* softening;  ///< square of the least distance of each node [m^2]
+    const double* flow;       ///< volume per time of each node [m^3/s]
     double samples_per_metre; ///< ring rate / speed of sound
-    const double* table;     ///< SplatTable::rows()
+    const double* table;      ///< SplatTable::rows()
 };
 
 struct Kernels {

@@ -24,8 +24,10 @@ StepKernel::StepKernel() {
         if (i == 0)
             continue;
         // Simpson over one pitch: error (pi / 64)^5 / 2880, below 1e-10.
-        const double area = (impulse(x - kPitch) + 4.0 * impulse(x - 0.5 * kPitch) + impulse(x)) / 6.0;
-        value_[static_cast<std::size_t>(i)] = value_[static_cast<std::size_t>(i - 1)] + area * kPitch;
+        const double area =
+            (impulse(x - kPitch) + 4.0 * impulse(x - 0.5 * kPitch) + impulse(x)) / 6.0;
+        value_[static_cast<std::size_t>(i)] =
+            value_[static_cast<std::size_t>(i - 1)] + area * kPitch;
     }
     const double total = value_.back();
     for (double& value : value_)

@@ -8,8 +8,8 @@ namespace ode::sound {
 
 EarPath::EarPath(double rate, const Vec3& position)
     : rate_(rate), keep_(std::exp(-1.0 / (kSmoothing * rate))), position_(position),
-      target_(position), ghost_(position), state_(static_cast<std::size_t>(kKept)),
-      rest_{position, Vec3::Zero(), position, 0.0} {}
+      target_(position), ghost_(position),
+      state_(static_cast<std::size_t>(kKept)), rest_{position, Vec3::Zero(), position, 0.0} {}
 
 void EarPath::move_to(const Vec3& target, std::int64_t begin, int samples) {
     if (still_) {

@@ -11,11 +11,12 @@ using Vec3 = Eigen::Vector3d;
 
 /// Where an ear is at every sample of a grid.
 ///
-/// The app moves ears in steps of its own; an ear goes there in a straight line over the time of one
-/// step. Waves are aimed at where an ear will be when they arrive, for which its velocity is needed;
-/// that is smoothed (kSmoothing), since a velocity that jumps would make arrivals jump. Constant
-/// velocities are exact; in between Doppler shift lags by the smoothing time. A move that no ear
-/// makes (a cut of the camera) is a jump: what is heard crosses over from the old place to the new.
+/// The app moves ears in steps of its own; an ear goes there in a straight line over the time of
+/// one step. Waves are aimed at where an ear will be when they arrive, for which its velocity is
+/// needed; that is smoothed (kSmoothing), since a velocity that jumps would make arrivals jump.
+/// Constant velocities are exact; in between Doppler shift lags by the smoothing time. A move that
+/// no ear makes (a cut of the camera) is a jump: what is heard crosses over from the old place to
+/// the new.
 class EarPath {
 public:
     static constexpr double kSmoothing = 0.05; ///< [s]
@@ -49,7 +50,7 @@ private:
     State step() noexcept;
 
     double rate_;
-    double keep_;           ///< of the smoothed velocity, a sample
+    double keep_; ///< of the smoothed velocity, a sample
     bool still_ = true;
     std::int64_t last_ = 0; ///< newest sample worked out
     Vec3 position_;         ///< there
@@ -58,7 +59,7 @@ private:
     Vec3 target_;
     std::int64_t left_ = 0; ///< samples until target
     Vec3 ghost_;
-    std::int64_t fading_ = 0;      ///< samples that the ghost still has
+    std::int64_t fading_ = 0; ///< samples that the ghost still has
     std::int64_t fade_length_ = 1;
     std::vector<State> state_;
     State rest_;

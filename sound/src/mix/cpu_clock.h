@@ -16,7 +16,8 @@ class SampledCost {
 public:
     /// Measures one job in kEvery. The number is coprime with the 4 and 16 or so substeps after
     /// which the sound path does its larger work, so that each kind is met in proportion.
-    template <class Job> void run(Job&& job) {
+    template <class Job>
+    void run(Job&& job) {
         if (++count_ % kEvery != 0) {
             job();
             return;
@@ -28,7 +29,8 @@ public:
     }
 
     /// Measures a long job in full.
-    template <class Job> void run_whole(Job&& job) {
+    template <class Job>
+    void run_whole(Job&& job) {
         const double begin = cpu_seconds();
         job();
         seconds_ += cpu_seconds() - begin;

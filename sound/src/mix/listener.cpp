@@ -21,13 +21,12 @@ void Listener::restart() {
         ear.wave.reset();
         ear.paper.reset();
         if (s.sampling == Sampling::kSinc) {
-            const Decimator decimator(s.rate,
-                                      differentiate ? Decimator::Kind::kDerivative
-                                                    : Decimator::Kind::kSmooth,
-                                      gain);
-            ear.wave = std::make_unique<EarLine>(
-                s.rate, next_, decimator,
-                differentiate ? std::nullopt : std::optional<DcBlock>(DcBlock{}));
+            const Decimator decimator(
+                s.rate, differentiate ? Decimator::Kind::kDerivative : Decimator::Kind::kSmooth,
+                gain);
+            ear.wave = std::make_unique<EarLine>(s.rate, next_, decimator,
+                                                 differentiate ? std::nullopt
+                                                               : std::optional<DcBlock>(DcBlock{}));
         } else {
             // Facets carry z v_n already, for all radiation models.
             ear.paper = std::make_unique<PaperLine>(
@@ -76,12 +75,9 @@ void Listener::splat(const FlowBlock& block, bool ghost) noexcept {
     }
     if (count == 0)
         return;
-    const SplatSurface surface{block.nodes,
-                               block.position,
-                               block.area,
-                               block.softening,
-                               block.flow,
-                               settings_->send_rate() / settings_->air.speed,
+    const SplatSurface surface{block.nodes,         block.position,
+                               block.area,          block.softening,
+                               block.flow,          settings_->send_rate() / settings_->air.speed,
                                splat_table().rows()};
     const auto facing = static_cast<std::size_t>(radiation_facing(settings_->radiation));
     const double delay = kernels().splat[facing](surface, target, count);

@@ -5,8 +5,8 @@
 #include "mix/settings.h"
 #include "path/ear_line.h"
 #include "path/paper_line.h"
-#include "source/body_source.h"
 #include "sink/sink.h"
+#include "source/body_source.h"
 
 #include <array>
 #include <memory>
@@ -44,14 +44,14 @@ public:
     void remove_sink(Sink& sink) noexcept;
     const std::vector<Sink*>& sinks() const noexcept { return sinks_; }
 
-    std::int64_t frames() const noexcept { return frames_; } ///< rendered
+    std::int64_t frames() const noexcept { return frames_; }   ///< rendered
     std::int64_t dropped() const noexcept { return dropped_; } ///< not taken by a full sink
     const Meter& meter() const noexcept { return meter_; }     ///< [Pa]
 
 private:
     struct Ear {
         std::unique_ptr<EarPath> path;
-        std::unique_ptr<EarLine> wave;   ///< one of these two, by sampling
+        std::unique_ptr<EarLine> wave; ///< one of these two, by sampling
         std::unique_ptr<PaperLine> paper;
         Line& line() noexcept { return wave ? static_cast<Line&>(*wave) : *paper; }
     };

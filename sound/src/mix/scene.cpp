@@ -12,11 +12,10 @@ Scene::Scene() = default;
 Scene::~Scene() = default;
 
 void Scene::set(const Settings& settings) {
-    const bool level_only = settings.rate == settings_.rate &&
-                            settings.radiation == settings_.radiation &&
-                            settings.sampling == settings_.sampling &&
-                            settings.air.density == settings_.air.density &&
-                            settings.air.speed == settings_.air.speed;
+    const bool level_only =
+        settings.rate == settings_.rate && settings.radiation == settings_.radiation &&
+        settings.sampling == settings_.sampling && settings.air.density == settings_.air.density &&
+        settings.air.speed == settings_.air.speed;
     settings_ = settings;
     if (level_only)
         return;
@@ -98,8 +97,7 @@ void Scene::end_step(double time) {
         begin_step(time_);
     for (Body& body : bodies_)
         body.source->advance_to(time, *this);
-    std::erase_if(bodies_,
-                  [](const Body& body) { return !body.key && body.source->is_silent(); });
+    std::erase_if(bodies_, [](const Body& body) { return !body.key && body.source->is_silent(); });
     const std::int64_t open = settings_.first_open_frame(time);
     for (const auto& listener : listeners_)
         listener->render(open);

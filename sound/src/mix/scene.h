@@ -62,12 +62,12 @@ private:
     Settings settings_;
     std::vector<std::unique_ptr<Listener>> listeners_;
     std::vector<Body> bodies_;
-    std::size_t hint_ = 0;   ///< body of the last push
-    bool stepping_ = false;  ///< between the first substep and end_step()
-    double time_ = 0.0;      ///< end of the last step [s]
-    double duration_ = 0.0;  ///< of the last step [s]
+    std::size_t hint_ = 0;  ///< body of the last push
+    bool stepping_ = false; ///< between the first substep and end_step()
+    double time_ = 0.0;     ///< end of the last step [s]
+    double duration_ = 0.0; ///< of the last step [s]
     Count count_;
-    Meter gone_;             ///< of listeners removed
+    Meter gone_; ///< of listeners removed
 };
 
 } // namespace ode::sound

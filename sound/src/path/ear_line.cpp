@@ -41,9 +41,7 @@ int EarLine::lookahead(double rate) noexcept {
     return Decimator::reach_for(rate) + SplatTable::kBefore + 1;
 }
 
-std::int64_t EarLine::last_frame() const noexcept {
-    return (latest_ + decimator_.reach() + 1) / 2;
-}
+std::int64_t EarLine::last_frame() const noexcept { return (latest_ + decimator_.reach() + 1) / 2; }
 
 double EarLine::pull() noexcept {
     const auto cell = static_cast<std::size_t>(pulled_++ & mask_);

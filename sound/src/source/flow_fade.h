@@ -8,22 +8,20 @@ namespace ode::sound {
 /// asleep, or is first seen in flight.
 ///
 /// At a break the flow jumps by some value. Adding that jump back, decaying, makes the sum
-/// continuous, and what follows keeps its own shape: an attack after waking is not blunted. Sound is
-/// the flow's derivative, so at an end the slope decays as well, the faster since it would thump.
+/// continuous, and what follows keeps its own shape: an attack after waking is not blunted. Sound
+/// is the flow's derivative, so at an end the slope decays as well, the faster since it would
+/// thump.
 class FlowFade {
 public:
     static constexpr double kValueTime = 5e-3; ///< [s], half a cosine
     static constexpr double kSlopeTime = 5e-4; ///< [s], cubic
 
-    explicit FlowFade(int nodes)
-        : value_(static_cast<std::size_t>(nodes)), slope_(value_.size()) {}
+    explicit FlowFade(int nodes) : value_(static_cast<std::size_t>(nodes)), slope_(value_.size()) {}
 
     double* value() noexcept { return value_.data(); } ///< [m^3/s], to be set before begin()
     double* slope() noexcept { return slope_.data(); } ///< [m^3/s^2]
     void begin(double time) noexcept;
-    bool is_active(double time) const noexcept {
-        return !zero_ && time < begin_ + kValueTime;
-    }
+    bool is_active(double time) const noexcept { return !zero_ && time < begin_ + kValueTime; }
     void stop() noexcept { zero_ = true; }
 
     /// Adds the decaying flow to the volumes [m^3] of an interval [s].

@@ -47,7 +47,7 @@ void PaperSurface::sense(const SurfaceView& view) noexcept {
         const Vec3 twice = (x2 - x1).cross(x3 - x1);
         const double length = twice.norm();
         const Vec3 n = length > 0.0 ? Vec3(twice / length) : Vec3::Zero(); // eq. 4
-        area_[static_cast<std::size_t>(t)] = 0.5 * length;                // eq. 3
+        area_[static_cast<std::size_t>(t)] = 0.5 * length;                 // eq. 3
         double* now = now_.data() + static_cast<std::size_t>(t) * kFields;
         now[0] = impedance_ * n.dot(v); // eq. 2, 5
         Eigen::Map<Vec3>{now + 1} = (x1 + x2 + x3) / 3.0;
@@ -84,9 +84,9 @@ void PaperSurface::substep(double time, double dt, BlockSink& out) {
     for (std::int64_t o = std::max(next_, first); o <= last; ++o) {
         const double lag = static_cast<double>(o) / rate_ - time;
         const double a = 2.0 * std::numbers::pi * fmax * lag;
-        const double sinc = std::abs(a) < 1e-9 ? 1.0 : std::sin(a) / a;            // eq. 7, scaled
+        const double sinc = std::abs(a) < 1e-9 ? 1.0 : std::sin(a) / a; // eq. 7, scaled
         const double window = 0.5 * (1.0 + std::cos(std::numbers::pi * lag / reach)); // eq. 8
-        const double k = sinc * window;                                            // eq. 6
+        const double k = sinc * window;                                               // eq. 6
         weight_[static_cast<std::size_t>(o & (kOpen - 1))] += k;
         double* sum = open(o);
         for (std::size_t i = 0; i < now_.size(); ++i)

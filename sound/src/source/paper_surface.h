@@ -27,8 +27,8 @@ public:
     bool is_silent() const noexcept override { return silent_; }
 
 private:
-    static constexpr int kOpen = 16;   ///< audio samples being gathered, a power of two
-    static constexpr int kFields = 7;  ///< pressure, centre, normal
+    static constexpr int kOpen = 16;  ///< audio samples being gathered, a power of two
+    static constexpr int kFields = 7; ///< pressure, centre, normal
 
     void sense(const SurfaceView& view) noexcept;
     void substep(double time, double dt, BlockSink& out);
@@ -44,7 +44,7 @@ private:
     double substep_ = 0.0;    ///< [s]
     double rest_begin_ = 0.0; ///< [s]
     bool resting_ = false;
-    std::int64_t next_ = 0;   ///< audio sample that is given off next
+    std::int64_t next_ = 0;      ///< audio sample that is given off next
     std::vector<double> now_;    ///< kFields a triangle
     std::vector<double> area_;   ///< [m^2]
     std::vector<double> sum_;    ///< kOpen times kFields a triangle

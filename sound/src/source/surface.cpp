@@ -21,7 +21,9 @@ Surface::Surface(std::span<const int> triangle)
 
 void Surface::collect(const double* body_points, int stride, double* point) const noexcept {
     for (int i = 0; i < nodes(); ++i) {
-        const double* from = body_points + static_cast<std::ptrdiff_t>(body_node_[static_cast<std::size_t>(i)]) * stride;
+        const double* from =
+            body_points +
+            static_cast<std::ptrdiff_t>(body_node_[static_cast<std::size_t>(i)]) * stride;
         std::copy_n(from, 3, point + 4 * i);
         point[4 * i + 3] = 0.0;
     }

@@ -10,16 +10,18 @@
 namespace ode::sound {
 namespace {
 
-constexpr double kGathersPerSample = 8.0; // box filter: -0.08 dB at 20 kHz, first image above 360 kHz
-constexpr double kMaxStretch = 16.0;      // substeps up to 167 us at 48 kHz are free of images
-constexpr double kCrossOver = 4e-3;       // after a jump [s]
-constexpr double kLeastDistance = 1e-6;   // of a node that bears no area [m]
+constexpr double kGathersPerSample =
+    8.0;                                // box filter: -0.08 dB at 20 kHz, first image above 360 kHz
+constexpr double kMaxStretch = 16.0;    // substeps up to 167 us at 48 kHz are free of images
+constexpr double kCrossOver = 4e-3;     // after a jump [s]
+constexpr double kLeastDistance = 1e-6; // of a node that bears no area [m]
 
 } // namespace
 
 SurfaceFlow::SurfaceFlow(std::span<const int> triangle, double rate)
     : surface_(triangle), rate_(rate), grid_rate_(kOversampling * rate),
-      interval_(1.0 / (kGathersPerSample * rate)), history_(surface_.nodes(), 1), fade_(surface_.nodes()), places_(surface_.nodes(), 1),
+      interval_(1.0 / (kGathersPerSample * rate)), history_(surface_.nodes(), 1),
+      fade_(surface_.nodes()), places_(surface_.nodes(), 1),
       last_(4 * static_cast<std::size_t>(surface_.nodes())), area_(last_.size()),
       area_seen_(last_.size()), softening_(last_.size() / 4), flow_(last_.size()) {}
 
@@ -64,8 +66,8 @@ void SurfaceFlow::adapt(double substep) {
     // An interval is at least two thirds of the wanted one (push() rounds to whole substeps).
     const double span = 2.0 * StepKernel::kHalfWidth * stretch_ + 8.0; // grid samples
     history_.reserve(4 + static_cast<int>(1.5 * span / (interval_ * grid_rate_)));
-    places_.reserve(12 + static_cast<int>(StepKernel::kHalfWidth * stretch_ +
-                                          interval_ * grid_rate_));
+    places_.reserve(12 +
+                    static_cast<int>(StepKernel::kHalfWidth * stretch_ + interval_ * grid_rate_));
 }
 
 void SurfaceFlow::start(double time) {
@@ -95,8 +97,7 @@ void SurfaceFlow::rewind(const SurfaceView& view, double duration) {
         // away.
         const double* a = area_.data() + 4 * i;
         const double size = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-        softening_[i] =
-            std::max(size / (4.0 * std::numbers::pi), kLeastDistance * kLeastDistance);
+        softening_[i] = std::max(size / (4.0 * std::numbers::pi), kLeastDistance * kLeastDistance);
     }
 }
 
@@ -124,8 +125,7 @@ void SurfaceFlow::record(const SurfaceView& view, BlockSink& out) {
     const double begin = event_end_;
     const double duration = view.time - begin;
     if (!entering_ && has_jumped(view, duration)) {
-        places_.jump(last_.data(), places_.newest() + 1,
-                     static_cast<int>(kCrossOver * grid_rate_));
+        places_.jump(last_.data(), places_.newest() + 1, static_cast<int>(kCrossOver * grid_rate_));
         rewind(view, duration);
     }
     if (entering_) {
@@ -199,8 +199,7 @@ void SurfaceFlow::advance_to(double time, BlockSink& out) {
 
 void SurfaceFlow::rest_until(double time, BlockSink& out) {
     const double reach = StepKernel::kHalfWidth * stretch_ / grid_rate_;
-    const double end =
-        rest_begin_ + FlowFade::kValueTime + 2.0 * reach + 8.0 / grid_rate_;
+    const double end = rest_begin_ + FlowFade::kValueTime + 2.0 * reach + 8.0 / grid_rate_;
     const double least = 0.1 * interval_; // rounding of the step's end is no interval
     while (event_end_ + least < time) {
         if (event_end_ > end) {
@@ -235,8 +234,8 @@ void SurfaceFlow::give_off(BlockSink& out) {
         for (int j = 0; j < 4; ++j) {
             const std::int64_t sample = next_ + j;
             const double ghost = places_.ghost_share(sample);
-            FlowBlock block{sample,        surface_.nodes(),  places_.at(sample),
-                            area_.data(),  softening_.data(), flow[j],
+            FlowBlock block{sample,       surface_.nodes(),  places_.at(sample),
+                            area_.data(), softening_.data(), flow[j],
                             1.0 - ghost};
             out.on_flow(block);
             if (ghost > 0.0) {

@@ -66,7 +66,7 @@ private:
     AlignedVector area_;      ///< area vectors extrapolated to the interval in progress [m^2]
     AlignedVector area_seen_; ///< as last taken [m^2]
     AlignedVector softening_;
-    AlignedVector flow_;      ///< four grid samples
+    AlignedVector flow_; ///< four grid samples
 };
 
 } // namespace ode::sound

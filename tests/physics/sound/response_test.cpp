@@ -67,7 +67,8 @@ INSTANTIATE_TEST_SUITE_P(Frequencies, Alias,
                                          77000.0, 95000.0, 101000.0, 150000.0, 200000.0));
 
 TEST(Response, At44100IsFlatAndFree) {
-    EXPECT_NEAR(decibel(listen(20000.0, 1e-6, 44100).level), 0.0, 0.1);
+    // Intervals of 3 us: two boxes take 0.10 dB.
+    EXPECT_NEAR(decibel(listen(20000.0, 1e-6, 44100).level), -0.10, 0.05);
     EXPECT_LT(decibel(listen(24500.0, 1e-6, 44100).residual), -90.0);
 }
 
