@@ -17,9 +17,10 @@ double baseline_loop() {
     for (int r = 0; r < 2 * kRounds; ++r) {
 #pragma GCC unroll 6
         for (int i = 0; i < kChains / 2; ++i) {
-            sum[i] = _mm_add_pd(sum[i], b);
-            product[i] = _mm_mul_pd(product[i], a);
-            asm("" : "+x"(sum[i]), "+x"(product[i]));
+            __m128d s = _mm_add_pd(sum[i], b), p = _mm_mul_pd(product[i], a);
+            asm("" : "+x"(s), "+x"(p));
+            sum[i] = s;
+            product[i] = p;
         }
     }
     double out = 0;
