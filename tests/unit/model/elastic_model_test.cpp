@@ -1,6 +1,7 @@
 // What every elastic model must obey, whatever its element and its law.
 #include "unit/model/specimens.h"
 
+#include "model/corotated.h"
 #include "model/stable_neo_hookean.h"
 #include "model/stvk_linear.h"
 #include "model/stvk_quadratic.h"
@@ -276,6 +277,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Kind{"StvkLinear", linear<StvkLinear>},
                     Kind{"StvkQuadratic", straight<StvkQuadratic>},
                     Kind{"StvkCurved", curved<StvkQuadratic>},
+                    Kind{"CorotatedLinear", linear<CorotatedLinear>},
+                    Kind{"CorotatedQuadratic", straight<CorotatedQuadratic>},
                     Kind{"StableNeoHookeanLinear", linear<StableNeoHookeanLinear>},
                     Kind{"StableNeoHookeanQuadratic", straight<StableNeoHookeanQuadratic>},
                     Kind{"StableNeoHookeanCurved", curved<StableNeoHookeanQuadratic>}),
