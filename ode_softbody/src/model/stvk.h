@@ -2,6 +2,7 @@
 
 #include "base/isa.h"
 #include "base/types.h"
+#include "model/law_constants.h"
 #include "model/solid.h"
 #include "model/tet_kernel.h"
 
@@ -38,7 +39,7 @@ struct StvkLaw {
     using Tangent = StvkTangent;
 
     static Constants constants(const Solid& s) noexcept {
-        return {s.lambda() / 2, s.mu(), s.viscous_lambda(), s.viscous_mu()};
+        return {s.lambda() / 2, s.mu(), {s.viscous_lambda(), s.viscous_mu()}};
     }
     /// Elastic energy per rest volume [J/m^3]: lambda/2 tr(E)^2 + mu E:E.
     static double energy(const Solid& s, const Mat3& f) noexcept {

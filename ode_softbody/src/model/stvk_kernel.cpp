@@ -1,7 +1,6 @@
 // Compiled once for every instruction set.
 #include "model/stvk_lanes.h"
 #include "model/tet10_lanes.h"
-#include "model/tet4_lanes.h"
 
 namespace ode::soft::ODE_SOFT_ISA {
 

@@ -1,37 +1,9 @@
 #pragma once
 
-#include "base/lane.h"
+#include "model/matrix_lanes.h"
 #include "model/tet_kernel.h"
 
 namespace ode::soft::ODE_SOFT_ISA {
-
-/// c = a b, all 3x3.
-template <class L>
-[[gnu::always_inline]] inline void multiply(const typename L::Value (&a)[3][3],
-                                            const typename L::Value (&b)[3][3],
-                                            typename L::Value (&c)[3][3]) {
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            c[i][j] = L::fma(a[i][2], b[2][j], L::fma(a[i][1], b[1][j], a[i][0] * b[0][j]));
-}
-
-/// c = a b^T.
-template <class L>
-[[gnu::always_inline]] inline void multiply_transposed(const typename L::Value (&a)[3][3],
-                                                       const typename L::Value (&b)[3][3],
-                                                       typename L::Value (&c)[3][3]) {
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            c[i][j] = L::fma(a[i][2], b[j][2], L::fma(a[i][1], b[j][1], a[i][0] * b[j][0]));
-}
-
-template <class L>
-[[gnu::always_inline]] inline typename L::Value determinant(const typename L::Value (&f)[3][3]) {
-    const auto c0 = L::fma(-f[1][2], f[2][1], f[1][1] * f[2][2]);
-    const auto c1 = L::fma(-f[1][0], f[2][2], f[1][2] * f[2][0]);
-    const auto c2 = L::fma(-f[1][1], f[2][0], f[1][0] * f[2][1]);
-    return L::fma(f[0][2], c2, L::fma(f[0][1], c1, f[0][0] * c0));
-}
 
 /// Folds lanes into `range`; a poisoned lane makes it not-a-number.
 template <class L>

@@ -51,12 +51,4 @@ using TetForce = void (*)(const void* pack, std::size_t count, const Constants& 
                           const double* position, const double* velocity, double* force,
                           DeformationRange& range);
 
-/// Constants of St. Venant-Kirchhoff with Kelvin-Voigt viscosity, as the kernels want them.
-struct StvkConstants {
-    double half_lambda; ///< lambda/2 [Pa]
-    double mu;          ///< [Pa]
-    double phi;         ///< viscous counterpart of lambda [Pa s]
-    double psi;         ///< viscous counterpart of mu [Pa s]
-};
-
 } // namespace ode::soft
