@@ -4,6 +4,7 @@
 
 #include <ode/objects.h>
 
+#include <cmath>
 #include <limits>
 
 namespace ode::soft {
@@ -106,6 +107,22 @@ SurfaceDistance RigidShape::distance_at(const Pose& body_pose, const Vec3& world
     const Pose here = pose.in(body_pose);
     const SurfaceDistance local = distance(here.to_local(world));
     return {local.distance, here.rotation * local.normal};
+}
+
+double RigidShape::support(const Vec3& n) const noexcept {
+    switch (kind) {
+    case ShapeKind::sphere:
+        return size.x();
+    case ShapeKind::box:
+        return size.dot(n.cwiseAbs());
+    case ShapeKind::capsule:
+        return size.x() + size.z() * std::fabs(n.z());
+    case ShapeKind::cylinder:
+        return size.x() * std::hypot(n.x(), n.y()) + size.z() * std::fabs(n.z());
+    case ShapeKind::plane:
+        break;
+    }
+    return n.z() >= 1 ? 0 : std::numeric_limits<double>::infinity();
 }
 
 Aabb RigidShape::bounds(const Pose& body_pose) const noexcept {

@@ -38,6 +38,9 @@ struct RigidShape {
     /// @return the normal in the world's frame.
     SurfaceDistance distance_at(const Pose& body_pose, const Vec3& world) const noexcept;
 
+    /// Largest n.x of the shape's points x, in its own frame. @param n  unit.
+    double support(const Vec3& n) const noexcept;
+
     /// Box that holds the shape; a plane's is unbounded.
     Aabb bounds(const Pose& body_pose) const noexcept;
 };

@@ -9,16 +9,6 @@
 namespace ode::soft {
 namespace {
 
-// A contact spring on a node of mass m adds at most k dt^2 / m to dt^2 lambda, which leapfrog with
-// lagged damping keeps stable while dt^2 lambda + 2 dt c / m <= 4. A substep of 0.9 of the critical
-// one leaves 4 - 3.24 = 0.76; the soft side takes 0.324 + 2 * 0.075, a rigid body the rest
-// (rigid_shadow.cpp). Eigenvalues of a sum are bounded by the sum, so this holds for any number of
-// contacts.
-constexpr double kStiffnessShare = 0.1 * 3.24; ///< of k dt^2 / m
-constexpr double kDampingShare = 0.075;        ///< of c dt / m
-
-constexpr double kTangential = 0.7; ///< tangential stiffness to normal, near Mindlin's for nu = 0.3
-
 // Nodes within this many mean edges of the shape are candidates.
 constexpr double kReach = 0.5;
 // How far nodes may get before they are looked at anew: elastic waves may make them kHaste times
@@ -32,20 +22,12 @@ bool same_shape(const RigidShape& a, const RigidShape& b) noexcept {
     return a.kind == b.kind && a.size == b.size && a.body == b.body;
 }
 
-/// Shortens v to at most `most`. @return whether it had to.
-bool clamp(Vec3& v, double most) noexcept {
-    const double length2 = v.squaredNorm();
-    if (!(length2 > most * most))
-        return false;
-    v *= most / std::sqrt(length2);
-    return true;
-}
-
 } // namespace
 
 NodeContact::NodeContact(const SurfaceNodes& nodes, dGeomID geom)
     : nodes_(nodes), geom_(geom), stiffness_(nodes.node.size()), damping_(nodes.node.size()),
-      anchor_(nodes.node.size(), Vec3::Zero()), anchored_(nodes.node.size(), 0) {
+      anchor_(nodes.node.size(), Vec3::Zero()), anchored_(nodes.node.size(), 0),
+      entered_(nodes.node.size(), Vec3::Zero()), samples_(nodes) {
     candidate_.reserve(nodes.node.size());
     touch_.reserve(nodes.node.size());
 }
@@ -55,17 +37,20 @@ void NodeContact::begin_step(const RigidShape& shape, const ContactLaw& law,
     if (!same_shape(shape, shape_)) {
         std::fill(anchored_.begin(), anchored_.end(), std::uint8_t{0});
         touch_.clear();
+        samples_.forget();
         softening_ = 1;
     }
     shape_ = shape;
     law_ = law;
-    const double bearable = kStiffnessShare / (dt * dt); // [1/s^2]
+    samples_.begin_step(shape, law, dt);
+    const double share = shape.kind == ShapeKind::plane ? 1 : 0.5; // the other half is the samples'
+    const double bearable = share * kStiffnessShare / (dt * dt);   // [1/s^2]
     const double kappa = law.stiffness > 0 ? law.stiffness : bearable * nodes_.mass_per_area;
     for (std::size_t i = 0; i < stiffness_.size(); ++i) {
         const bool held = inverse_mass[index(nodes_.node[i])] == 0;
         const double most = held ? std::numeric_limits<double>::infinity() : nodes_.mass[i];
         stiffness_[i] = std::fmin(kappa * nodes_.area[i], bearable * most);
-        damping_[i] = std::fmin(stiffness_[i] * law.damping, kDampingShare * most / dt);
+        damping_[i] = std::fmin(stiffness_[i] * law.damping, share * kDampingShare * most / dt);
     }
     look_again_in_ = 0;
 }
@@ -87,6 +72,7 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
         else
             nearest = std::fmin(nearest, distance);
     }
+    samples_.look(position, pose, reach);
     look_again_in_ =
         nearest / (kHaste * std::sqrt(fastest2) + std::sqrt(kAcceleration * nearest / 2));
 }
@@ -101,17 +87,21 @@ ContactTally NodeContact::add_force(const NodeArray& position, const NodeArray& 
     look_again_in_ -= dt;
     touch_.clear();
     softening_ = 1;
-    if (!candidate_.empty()) {
-        const double load = with_distance(shape_.kind, [&](auto distance_of) {
+    double load = 0;
+    if (!candidate_.empty())
+        load = with_distance(shape_.kind, [&](auto distance_of) {
             return find_touching(distance_of, position, rigid, dt);
         });
-        tally.tests += candidate_.size();
-        if (!touch_.empty()) {
-            softening_ = rigid.soften(load);
-            push(position, velocity, rigid, force);
-        }
+    tally.tests += candidate_.size();
+    if (samples_.is_near())
+        load += samples_.find_touching(position, shape_.pose.in(rigid.motion().pose), rigid, dt,
+                                       tally.tests);
+    tally.bearing = touch_.size() + samples_.bearing();
+    if (tally.bearing != 0) {
+        softening_ = rigid.soften(load);
+        push(position, velocity, rigid, force);
+        samples_.push(velocity, softening_, dt, rigid, force);
     }
-    tally.bearing = touch_.size();
     return tally;
 }
 
@@ -123,11 +113,15 @@ double NodeContact::find_touching(Distance distance_of, const NodeArray& positio
     for (const int i : candidate_) {
         const Vec3 x = position[index(nodes_.node[index(i)])];
         const Vec3 local = pose.to_local(x);
-        const SurfaceDistance gap = distance_of(shape_.size, local);
+        SurfaceDistance gap = distance_of(shape_.size, local);
+        Vec3& entered = entered_[index(i)];
+        if (anchored_[index(i)] && gap.normal.dot(entered) < 0)
+            gap = {entered.dot(local) - shape_.support(entered), entered};
         if (gap.distance >= 0) {
             anchored_[index(i)] = 0;
             continue;
         }
+        entered = gap.normal;
         const Vec3 normal = pose.rotation * gap.normal;
         load +=
             (stiffness_[index(i)] * dt + 2 * damping_[index(i)]) * dt * rigid.compliance(x, normal);
@@ -158,11 +152,11 @@ void NodeContact::push(const NodeArray& position, const NodeArray& velocity, Rig
         const double grip = press > 0 ? law_.friction * press : 0; // friction may be infinite
         Vec3 stretch = touch.local - anchor_[i];
         stretch -= touch.across.dot(stretch) * touch.across;
-        if (clamp(stretch, grip / (kTangential * k)))
+        if (clamp_length(stretch, grip / (kTangential * k)))
             anchor_[i] = touch.local - stretch;
         Vec3 f = pose.rotation * (-kTangential * k * stretch) -
                  kTangential * c * (slip - parting * touch.normal);
-        clamp(f, grip);
+        clamp_length(f, grip);
         f += press * touch.normal;
 
         force[n] += f;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "collide/rigid_shape.h"
+#include "couple/contact_law.h"
 #include "couple/rigid_shadow.h"
+#include "couple/sample_contact.h"
 #include "couple/surface_nodes.h"
 
 #include <cstdint>
@@ -10,27 +12,24 @@
 
 namespace ode::soft {
 
-/// How a soft body's surface meets rigid ones.
-struct ContactLaw {
-    double friction = 0.5; ///< Coulomb's coefficient [-]; infinite sticks
-    double stiffness = 0;  ///< penalty per area and depth [Pa/m]; 0: as stiff as the substep allows
-    double damping = 3e-5; ///< time constant of the dashpots, force k (depth + damping * speed) [s]
-};
-
 /// Work done in one call.
 struct ContactTally {
     unsigned long tests = 0;   ///< nodes whose distance was evaluated
     unsigned long bearing = 0; ///< nodes that bore force
 };
 
-/// Contact of one soft body's surface nodes with one rigid shape, kept from step to step as long as
-/// the pair stays near, because friction has a memory.
+/// Contact of one soft body with one rigid shape: of its surface nodes with the shape, and of the
+/// shape's samples with its triangles (SampleContact). Kept from step to step as long as the pair
+/// stays near, because friction has a memory.
 ///
 /// Normal force of node i: max(0, k_i depth + c_i approach speed), k_i = kappa A_i. Depth is that
 /// of the closest surface point, continuous over edges and corners, so the force has a potential
 /// and needs no cap on depth. Explicit stability bounds k_i by kStiffnessShare of what the node's
 /// mass bears at this substep, and c_i likewise; a light rigid body lowers both
 /// (RigidShadow::softening).
+///
+/// A node that is in stays on the side where it came in: the far side of a thin shape doesn't push
+/// it through.
 ///
 /// Friction: a spring of 0.7 k_i from a point that is fixed to the shape, clamped to mu F_n, with a
 /// dashpot; then the sum is clamped. The spring alone moves the anchor (clamping by the total would
@@ -57,7 +56,7 @@ public:
                            double dt, NodeArray& force) noexcept;
 
     /// Some node bore force in the last substep.
-    bool bearing() const noexcept { return !touch_.empty(); }
+    bool bearing() const noexcept { return !touch_.empty() || samples_.bearing() != 0; }
     /// What a light body's shadow asked of the contact in the last substep, to be handed to the
     /// shadow of the next step; 1 when nothing bears.
     double softening() const noexcept { return softening_; }
@@ -91,10 +90,12 @@ private:
     std::vector<double> damping_;        ///< [N s/m]
     std::vector<Vec3> anchor_;           ///< end of the friction spring, in the shape's frame [m]
     std::vector<std::uint8_t> anchored_; ///< whether there is one
+    std::vector<Vec3> entered_;          ///< outward normal where it is in, in the shape's frame
     std::vector<int> candidate_;         ///< surface nodes near the shape
     std::vector<Touch> touch_;           ///< of the last substep
-    double look_again_in_ = 0;           ///< [s]
-    double softening_ = 1;               ///< in the last substep
+    SampleContact samples_;
+    double look_again_in_ = 0; ///< [s]
+    double softening_ = 1;     ///< in the last substep
 };
 
 } // namespace ode::soft

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/lane.h"
-#include "model/tet4_kernel.h"
+#include "model/tet_kernel.h"
 
 namespace ode::soft::ODE_SOFT_ISA {
 

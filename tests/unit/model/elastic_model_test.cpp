@@ -2,6 +2,7 @@
 #include "unit/model/specimens.h"
 
 #include "model/stvk_linear.h"
+#include "model/stvk_quadratic.h"
 
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
@@ -27,11 +28,27 @@ Specimen linear_stvk(const Solid& solid) {
     return specimen(std::move(mesh), std::move(model), 0.3 * 0.2 * 0.2);
 }
 
+Specimen straight_stvk(const Solid& solid) {
+    TetMesh mesh = with_mid_nodes(irregular_box({0.3, 0.2, 0.2}, 3, 2, 2));
+    auto model = std::make_unique<StvkQuadratic>(mesh, solid);
+    return specimen(std::move(mesh), std::move(model), 0.3 * 0.2 * 0.2);
+}
+
+Specimen curved_stvk(const Solid& solid) {
+    TetMesh mesh = curved_box({0.3, 0.2, 0.2}, 3, 2, 2, 0.004);
+    auto model = std::make_unique<StvkQuadratic>(mesh, solid);
+    return specimen(std::move(mesh), std::move(model), 0.3 * 0.2 * 0.2);
+}
+
 class ElasticModelTest : public testing::TestWithParam<Kind> {
 protected:
     const Solid solid_ = rubber();
     const Specimen s_ = GetParam().make(solid_);
     const NodeArray still_{s_.rest.size()};
+
+    bool is_curved() const {
+        return std::string(GetParam().name).find("Curved") != std::string::npos;
+    }
 
     /// A force that strains of order one would make [N].
     double force_scale() const { return solid_.young * s_.size * s_.size; }
@@ -174,7 +191,8 @@ TEST_P(ElasticModelTest, MassIsThatOfTheVolume) {
 }
 
 // The consistent mass integrates products of linear fields exactly, so second moments of a box of
-// sides a b c are those of the solid: m (a^2/3, ab/4) about a corner.
+// sides a b c are those of the solid: m (a^2/3, ab/4) about a corner. Over a curved element the
+// product is of degree 7, the rule of degree 5: what is missed is cubic in 4 mm / 100 mm.
 TEST_P(ElasticModelTest, ConsistentMassHasTheInertiaOfTheBox) {
     const Eigen::SparseMatrix<double> m = s_.model->consistent_mass();
     const double mass = solid_.density * s_.volume;
@@ -187,7 +205,7 @@ TEST_P(ElasticModelTest, ConsistentMassHasTheInertiaOfTheBox) {
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             EXPECT_NEAR(moment(i, j), mass * side[i] * side[j] / (i == j ? 3 : 4),
-                        1e-12 * mass * 0.09);
+                        (is_curved() ? 1e-4 : 1e-12) * mass * 0.09);
 }
 
 TEST_P(ElasticModelTest, FrequencyBoundIsAboveTheExactOneAndNotIdle) {
@@ -235,7 +253,10 @@ TEST_P(ElasticModelTest, SameInputSameBits) {
         EXPECT_EQ(a.data()[4 * i + 3], 0); // NodeArray's fourth number
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ElasticModelTest, testing::Values(Kind{"StvkLinear", linear_stvk}),
+INSTANTIATE_TEST_SUITE_P(All, ElasticModelTest,
+                         testing::Values(Kind{"StvkLinear", linear_stvk},
+                                         Kind{"StvkQuadratic", straight_stvk},
+                                         Kind{"StvkCurved", curved_stvk}),
                          [](const auto& instance) { return std::string(instance.param.name); });
 
 } // namespace

@@ -53,12 +53,11 @@ inline NodeArray disturbed(const NodeArray& x, double amplitude, unsigned seed) 
     return out;
 }
 
-/// Inner nodes moved, so that no two elements are alike.
-inline TetMesh irregular_box(const Vec3& size, int nx, int ny, int nz) {
-    TetMesh mesh = box_mesh(size, nx, ny, nz);
-    const double cell = (size.array() / Eigen::Array3d(nx, ny, nz)).minCoeff();
-    const NodeArray moved = disturbed(node_array(mesh.node), 0.15 * cell, 7);
-    for (std::size_t i = 0; i < mesh.node.size(); ++i) {
+/// Nodes from number `first` on that lie inside the box [0, size] moved by up to `amplitude`.
+inline TetMesh with_inner_nodes_moved(TetMesh mesh, const Vec3& size, double amplitude,
+                                      std::size_t first = 0) {
+    const NodeArray moved = disturbed(node_array(mesh.node), amplitude, 7);
+    for (std::size_t i = first; i < mesh.node.size(); ++i) {
         const auto& x = mesh.node[i];
         const bool inside = (x.array() > 1e-9 * size.array()).all() &&
                             (x.array() < (1 - 1e-9) * size.array()).all();
@@ -66,6 +65,18 @@ inline TetMesh irregular_box(const Vec3& size, int nx, int ny, int nz) {
             mesh.node[i] = moved[i];
     }
     return mesh;
+}
+
+/// No two elements alike.
+inline TetMesh irregular_box(const Vec3& size, int nx, int ny, int nz) {
+    const double cell = (size.array() / Eigen::Array3d(nx, ny, nz)).minCoeff();
+    return with_inner_nodes_moved(box_mesh(size, nx, ny, nz), size, 0.15 * cell);
+}
+
+/// Quadratic, mid-edge nodes inside the box moved by up to `curvature`. [m]
+inline TetMesh curved_box(const Vec3& size, int nx, int ny, int nz, double curvature) {
+    const TetMesh linear = irregular_box(size, nx, ny, nz);
+    return with_inner_nodes_moved(with_mid_nodes(linear), size, curvature, linear.node.size());
 }
 
 /// Largest entry.

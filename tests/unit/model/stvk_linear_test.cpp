@@ -3,56 +3,10 @@
 #include "base/error.h"
 #include "unit/model/specimens.h"
 
-#include "model/stvk.h"
-#include "model/stvk_lanes.h"
-#include "model/tet4_lanes.h"
-
 #include <gtest/gtest.h>
 
 namespace ode::soft {
 namespace {
-
-class StvkLinearIsa : public testing::TestWithParam<Isa> {};
-
-// The scalar instance of the kernel template is the oracle. With fused multiply-add every lane does
-// the same operations in the same order: equal bits. The baseline rounds each product as well: an
-// element's force is a chain of about 20 roundings of terms up to lambda + 2 mu times an area.
-TEST_P(StvkLinearIsa, AgreesWithTheScalarKernel) {
-    if (!is_supported(GetParam()))
-        GTEST_SKIP() << isa_name(GetParam());
-    for (const bool viscous : {false, true}) {
-        const Solid solid = viscous ? viscous_rubber() : rubber();
-        const TetMesh mesh = irregular_box({0.3, 0.2, 0.2}, 5, 3, 3); // 270: not a multiple of 8
-        const StvkLinear model(mesh, solid, GetParam());
-        const Tet4Packs packs(mesh, std::span(&solid, 1));
-        const NodeArray x = disturbed(node_array(mesh.node), 0.008, 1);
-        const NodeArray v = disturbed(NodeArray(x.size()), 5, 2);
-
-        NodeArray wide(x.size()), one(x.size());
-        const StrainExtremes extremes = model.add_force(x, v, wide);
-        DeformationRange range{1e300, 0};
-        const auto oracle = viscous ? scalar::add_tet4_force<scalar::Lane<1>, scalar::Stvk, true>
-                                    : scalar::add_tet4_force<scalar::Lane<1>, scalar::Stvk, false>;
-        const auto& block = packs.blocks()[0];
-        oracle(packs.pack(block), block.packs, stvk_constants(solid), x.data(), v.data(),
-               one.data(), range);
-
-        if (GetParam() == Isa::baseline) {
-            const double tolerance = 100 * 1.2e-16 * (3 * solid.young) * 0.1 * 0.1;
-            for (std::size_t i = 0; i < x.size(); ++i)
-                EXPECT_LE((wide[i] - one[i]).norm(), tolerance);
-            EXPECT_NEAR(extremes.min_jacobian, range.min_determinant, 1e-14);
-        } else {
-            EXPECT_EQ(std::memcmp(wide.data(), one.data(), 32 * x.size()), 0);
-            EXPECT_EQ(extremes.min_jacobian, range.min_determinant);
-        }
-    }
-}
-
-INSTANTIATE_TEST_SUITE_P(All, StvkLinearIsa, testing::Values(Isa::baseline, Isa::avx2, Isa::avx512),
-                         [](const auto& instance) {
-                             return std::string(isa_name(instance.param));
-                         });
 
 // MacNeal & Harder's patch test with their numbers: a linear displacement field on any mesh gives
 // constant stress, and no force on inner nodes. In the small: the field is scaled down until the
@@ -105,7 +59,7 @@ TEST(StvkLinear, KeepsSolidsOfGroupsApart) {
     NodeArray x = node_array(mesh.node);
     for (std::size_t i = 0; i < x.size(); ++i)
         x[i] *= 1.01;
-    const double one = stvk_energy(both[0], 1.01 * Mat3::Identity());
+    const double one = StvkLaw::energy(both[0], 1.01 * Mat3::Identity());
     EXPECT_NEAR(model.energy(x), 11 * one, 1e-9 * one);
     EXPECT_THROW(StvkLinear(mesh, rubber()), InputError);
 }

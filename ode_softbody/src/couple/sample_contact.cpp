@@ -1,0 +1,173 @@
+#include "couple/sample_contact.h"
+
+#include "couple/outward.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace ode::soft {
+namespace {
+
+constexpr double kSpacing = 0.5;     ///< of samples, in mean edges
+constexpr double kEntryDepth = 0.25; ///< of a sample first seen inside, in mean edges
+// Samples share nodes: at half an edge apart on a line, about four press on a node's triangles.
+// Node contacts take the other half of what the nodes can bear.
+constexpr double kShare = 0.5 / 4;
+
+std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+
+} // namespace
+
+void SampleContact::begin_step(const RigidShape& shape, const ContactLaw& law, double dt) {
+    const bool same = shape.kind == shape_.kind && shape.size == shape_.size;
+    shape_ = shape;
+    law_ = law;
+    dt_ = dt;
+    if (same)
+        return;
+    spacing_ = kSpacing * surface_.mean_edge;
+    sample_ =
+        surface_.triangle.empty() ? std::vector<RigidSample>{} : sample_shape(shape, spacing_);
+    state_.assign(sample_.size(), State{});
+    near_.clear();
+    near_.reserve(sample_.size());
+    touch_.clear();
+    touch_.reserve(sample_.size());
+}
+
+void SampleContact::forget() noexcept {
+    std::fill(state_.begin(), state_.end(), State{});
+    touch_.clear();
+}
+
+void SampleContact::look(const NodeArray& position, const Pose& shape, double reach) {
+    near_.clear();
+    pair_.clear();
+    for (std::size_t s = 0; s < sample_.size(); ++s) {
+        const Vec3 center = shape.to_world(sample_[s].center);
+        const double most = sample_[s].radius + reach;
+        const auto first = static_cast<int>(pair_.size());
+        for (std::size_t t = 0; t < surface_.triangle.size(); ++t) {
+            const auto& [a, b, c] = surface_.triangle[t];
+            const Vec3 xa = position[index(a)];
+            const Vec3 low = xa.cwiseMin(position[index(b)]).cwiseMin(position[index(c)]);
+            const Vec3 high = xa.cwiseMax(position[index(b)]).cwiseMax(position[index(c)]);
+            const Vec3 out = (low - center).cwiseMax(center - high).cwiseMax(0.0);
+            if (out.squaredNorm() < most * most)
+                pair_.push_back(static_cast<int>(t));
+        }
+        const auto last = static_cast<int>(pair_.size());
+        if (last > first)
+            near_.push_back({static_cast<int>(s), first, last});
+        else
+            state_[s] = State{};
+    }
+}
+
+SampleContact::Closest SampleContact::find_closest(const Near& near, const Vec3& center,
+                                                   const State& state,
+                                                   const NodeArray& position) const noexcept {
+    Closest best;
+    best.distance2 = std::numeric_limits<double>::infinity();
+    for (int i = near.first; i < near.last; ++i) {
+        const int triangle = pair_[index(i)];
+        const auto& [a, b, c] = surface_.triangle[index(triangle)];
+        const TrianglePoint at =
+            closest_on_triangle(center, position[index(a)], position[index(b)], position[index(c)]);
+        const double distance2 = (center - at.point).squaredNorm();
+        if (distance2 >= best.distance2)
+            continue;
+        if (state.bears && area_vector(surface_, position, triangle).dot(state.normal) < 0)
+            continue;
+        best.triangle = triangle;
+        best.at = at;
+        best.distance2 = distance2;
+    }
+    return best;
+}
+
+double SampleContact::find_touching(const NodeArray& position, const Pose& shape,
+                                    const RigidShadow& rigid, double dt,
+                                    unsigned long& tests) noexcept {
+    double load = 0;
+    touch_.clear();
+    for (const Near& near : near_) {
+        State& state = state_[index(near.sample)];
+        const RigidSample& sample = sample_[index(near.sample)];
+        const Vec3 center = shape.to_world(sample.center);
+        const Closest closest = find_closest(near, center, state, position);
+        tests += index(near.last - near.first);
+        if (closest.triangle < 0) {
+            state = State{};
+            continue;
+        }
+        const Vec3 outward = pseudonormal(surface_, position, closest.triangle, closest.at.weight);
+        const Vec3 away = center - closest.at.point;
+        const bool outside = away.dot(outward) >= 0;
+        const double distance = std::sqrt(closest.distance2);
+        const double depth = sample.radius - (outside ? distance : -distance);
+        if (depth <= 0) {
+            state = State{};
+            state.was_outside = true;
+            continue;
+        }
+        if (!state.bears && !state.was_outside && !(depth <= kEntryDepth * surface_.mean_edge))
+            continue;
+        const double light = kShare * surface_.lightest[index(closest.triangle)];
+        const double bearable = kStiffnessShare / (dt_ * dt_) * light;
+        const double wanted = law_.stiffness > 0 ? law_.stiffness * spacing_ * spacing_ : bearable;
+        const double k = std::fmin(wanted, bearable);
+        if (!state.bears) {
+            state.stretch.setZero();
+            state.stiffness = k;
+        }
+        state.bears = true;
+        state.stiffness = std::fmin(state.stiffness, k);
+        // Very near the surface the direction is lost in rounding; the feature still has one.
+        const bool clear = distance > 1e-9 * surface_.mean_edge;
+        state.normal = clear ? Vec3(away * ((outside ? 1 : -1) / distance)) : outward.normalized();
+        const double c = std::fmin(state.stiffness * law_.damping, kDampingShare * light / dt_);
+        load +=
+            (state.stiffness * dt + 2 * c) * dt * rigid.compliance(closest.at.point, state.normal);
+        touch_.push_back({near.sample, closest.triangle, closest.at, depth});
+    }
+    return load;
+}
+
+void SampleContact::push(const NodeArray& velocity, double softening, double dt, RigidShadow& rigid,
+                         NodeArray& force) noexcept {
+    const RigidMotion& motion = rigid.motion();
+    Wrench reaction;
+    for (const Touch& touch : touch_) {
+        State& state = state_[index(touch.sample)];
+        const auto& corner = surface_.triangle[index(touch.triangle)];
+        const Vec3& weight = touch.at.weight;
+        const double light = kShare * surface_.lightest[index(touch.triangle)];
+        const double k = softening * state.stiffness;
+        const double c =
+            softening * std::fmin(state.stiffness * law_.damping, kDampingShare * light / dt_);
+
+        Vec3 slip = motion.velocity_at(touch.at.point); // of the rigid against the soft surface
+        for (int i = 0; i < 3; ++i)
+            slip -= weight[i] * velocity[index(corner[index(i)])];
+        const double parting = slip.dot(state.normal);
+        const double press = std::fmax(0, k * touch.depth - c * parting);
+        const Vec3 across = slip - parting * state.normal;
+        const double grip = press > 0 ? law_.friction * press : 0; // friction may be infinite
+        state.stretch += dt * across;
+        state.stretch -= state.normal.dot(state.stretch) * state.normal;
+        clamp_length(state.stretch, grip / (kTangential * k));
+        Vec3 f = -kTangential * (k * state.stretch + c * across);
+        clamp_length(f, grip);
+        f += press * state.normal;
+
+        for (int i = 0; i < 3; ++i)
+            force[index(corner[index(i)])] -= weight[i] * f;
+        reaction.force += f;
+        reaction.torque += (touch.at.point - motion.pose.position).cross(f);
+    }
+    if (!touch_.empty())
+        rigid.add(reaction);
+}
+
+} // namespace ode::soft
