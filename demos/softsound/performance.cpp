@@ -20,13 +20,14 @@ double cpu_seconds() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-std::vector<float> left_ear(dSoundSinkID memory) {
+/// What the left ear heard [Pa]; sinks hold it relative to full scale.
+std::vector<float> left_ear(dSoundSinkID memory, double full_scale) {
     const float* first = nullptr;
     int channels = 0;
     const unsigned long frames = dSoundSinkGetSamples(memory, &first, &channels);
     std::vector<float> out(frames);
     for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = first[i * static_cast<std::size_t>(channels)];
+        out[i] = static_cast<float>(full_scale) * first[i * static_cast<std::size_t>(channels)];
     return out;
 }
 
@@ -56,6 +57,10 @@ void add_stage(CLI::App& command, Stage& stage) {
     command.add_option("--sampling", stage.sampling, "How waves are sampled")
         ->check(CLI::IsMember({"sinc", "paper"}))
         ->capture_default_str();
+    command
+        .add_option("--full-scale", stage.full_scale, "Pressure that becomes 1.0 in the file [Pa]")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
 }
 
 Performance perform(scenes::World& world, const Stage& stage, bool quiet) {
@@ -69,6 +74,7 @@ Performance perform(scenes::World& world, const Stage& stage, bool quiet) {
         throw scenes::Refused("no such sound");
     Performance p;
     dSoundSetRate(sound, p.rate);
+    dSoundSetFullScale(sound, stage.full_scale);
     const dSoundListenerID ears = scenes::made(dSoundListenerCreate(sound));
     const dVector3 at = {0, 1, 0};
     const dVector3 up = {0, 0, 1};
@@ -98,7 +104,7 @@ Performance perform(scenes::World& world, const Stage& stage, bool quiet) {
     if (live)
         p.live_kind = dSoundSinkGetKind(live);
     sound.reset(); // what still travels arrives
-    p.left = left_ear(memory);
+    p.left = left_ear(memory, stage.full_scale);
     complain_of(file);
     return p;
 }
