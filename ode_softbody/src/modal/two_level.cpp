@@ -10,11 +10,12 @@ namespace {
 using Eigen::Index;
 using Eigen::RowVectorXd;
 
-/// Per smoothing: two products leave the surplus functions a factor of about four smaller.
-constexpr int kDegree = 3;
+/// Degree and range measured over a bar, a plate, a bowl, a block and a sphere: from degree 3 to 6
+/// the CPU time differs by 30 %, and thin plates of wide elements want the higher ones.
+constexpr int kDegree = 4;
 /// The smoother works on the upper part of the spectrum, down to this share of its top; below lies
 /// what the coarse order represents.
-constexpr double kLowShare = 1.0 / 15;
+constexpr double kLowShare = 1.0 / 20;
 
 } // namespace
 

@@ -9,6 +9,14 @@
 namespace ode::soft {
 namespace {
 
+/// Quadratic elements, no estimate.
+ModalOptions plain() {
+    ModalOptions options;
+    options.order = 2;
+    options.estimate = false;
+    return options;
+}
+
 const Solid kSteel{.young = 200e9, .poisson = 0.29, .density = 7850};
 const Solid kNafems{.young = 200e9, .poisson = 0.3, .density = 8000};
 const Solid kAluminium{.young = 69e9, .poisson = 0.33, .density = 2700};
@@ -41,7 +49,7 @@ std::vector<int> nodes_where(const TetMesh& mesh, const std::function<bool(const
 // twice as fine a mesh, for each of the flat modes.
 TEST(ClosedForm, ClampedBarBendsAsTimoshenkoSays) {
     const TetMesh mesh = make_bar(0.3, 0.02, 0.01, 24, 2, 1);
-    ModalOptions options;
+    ModalOptions options = plain();
     options.order = 3;
     options.max_frequency = 4500;
     options.clamped = nodes_where(mesh, [](const Vec3& x) { return x.x() < 1e-9; });
@@ -66,7 +74,7 @@ TEST(ClosedForm, ClampedBarBendsAsTimoshenkoSays) {
 // A2. The reference of 574.2 Hz is Timoshenko's.
 TEST(ClosedForm, FreeBarBendsAndStretchesAsItShould) {
     const TetMesh mesh = make_bar(0.3, 0.05, 0.01, 24, 4, 1);
-    ModalOptions options;
+    ModalOptions options = plain();
     options.order = 3;
     options.max_frequency = 9000;
     const ModalModel model = solve_modes(mesh, std::span(&kSteel, 1), options);
@@ -92,7 +100,7 @@ TEST(ClosedForm, FreeBarBendsAndStretchesAsItShould) {
 // slow: 16.9, 10.8, 6.7 and 4.1 cents of the first at 10, 14, 20 and 28 cells a side.
 TEST(ClosedForm, ClampedSquarePlateAgreesWithLeissa) {
     const TetMesh mesh = make_plate(0.3, 0.3, 0.003, 14, 14, 1);
-    ModalOptions options;
+    ModalOptions options = plain();
     options.order = 3;
     options.max_modes = 7;
     options.clamped = nodes_where(mesh, [](const Vec3& x) {
@@ -110,7 +118,7 @@ TEST(ClosedForm, ClampedSquarePlateAgreesWithLeissa) {
 // A4. NAFEMS FV12; sources differ on the pair by 1 %.
 TEST(ClosedForm, FreeSquarePlateAgreesWithNafemsFv12) {
     const TetMesh mesh = make_plate(10, 10, 0.05, 12, 12, 1);
-    ModalOptions options;
+    ModalOptions options = plain();
     options.order = 3;
     options.max_modes = 5;
     const ModalModel model = solve_modes(mesh, std::span(&kNafems, 1), options);
@@ -125,7 +133,7 @@ TEST(ClosedForm, FreeSquarePlateAgreesWithNafemsFv12) {
 // element size), so these lie 80 to 125 cents lower.
 TEST(ClosedForm, PlateOnItsLowerEdgesIsNearNafemsFv52) {
     const TetMesh mesh = make_plate(10, 10, 1, 8, 8, 1);
-    ModalOptions options;
+    ModalOptions options = plain();
     options.order = 3;
     options.max_modes = 4;
     options.rollers[2] = nodes_where(mesh, [](const Vec3& x) {
@@ -144,7 +152,7 @@ TEST(ClosedForm, PlateOnItsLowerEdgesIsNearNafemsFv52) {
 // w^2/c_l^2, Q^2 = k^2 - w^2/c_t^2.
 TEST(ClosedForm, ThickPlateOnRollersIsExact) {
     const TetMesh mesh = make_plate(10, 10, 1, 8, 8, 1);
-    ModalOptions options;
+    ModalOptions options = plain();
     options.order = 3;
     options.max_frequency = 180;
     const auto at = [&](int axis) {
@@ -230,7 +238,7 @@ TEST(ClosedForm, SphereRingsInLambsModes) {
             if (const auto i = static_cast<std::size_t>(sphere.nodes_of(e)[k]);
                 outer[static_cast<std::size_t>(map.nodes_of(e)[k])] && !std::exchange(placed[i], 1))
                 sphere.node[i] *= radius / sphere.node[i].norm();
-    ModalOptions options;
+    ModalOptions options = plain();
     options.order = 3;
     options.max_frequency = 60000;
     const ModalModel model = solve_modes(sphere, std::span(&kSteel, 1), options);
@@ -247,7 +255,7 @@ TEST(ClosedForm, NearlyIncompressibleBlockDoesNotLock) {
     const Solid rubber{.young = 5e6, .poisson = 0.49, .density = 1100};
     const auto first = [&](int cells, int order) {
         const TetMesh mesh = make_box({0.12, 0.04, 0.04}, 3 * cells, cells, cells);
-        ModalOptions options;
+        ModalOptions options = plain();
         options.order = order;
         options.max_modes = 1;
         return solve_modes(mesh, std::span(&rubber, 1), options).frequency[0];
