@@ -1,6 +1,7 @@
 #include "couple/node_contact.h"
 
 #include "collide/shape_distance.h"
+#include "couple/outward.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,15 @@ std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
 bool same_shape(const RigidShape& a, const RigidShape& b) noexcept {
     return a.kind == b.kind && a.size == b.size && a.body == b.body;
+}
+
+/// Unit vector into the soft body at a surface node; zero for a node without triangles.
+Vec3 inward_at(const SurfaceNodes& surface, const NodeArray& position, std::size_t i) noexcept {
+    Vec3 sum = Vec3::Zero();
+    if (!surface.triangle.empty())
+        for (const int t : surface.fan(surface.node[i]))
+            sum -= area_vector(surface, position, t);
+    return sum.stableNormalized();
 }
 
 } // namespace
@@ -111,6 +121,12 @@ void NodeContact::probe_candidates(const NodeArray& position, const NodeArray& v
         const Vec3 lift = anchored_[i] ? Vec3(0.5 * probe_->radius() * entered_[i]) : Vec3::Zero();
         Planes planes;
         planes.count = probe_->feel(shape_.probe, pose.to_local(x) + lift, planes.plane);
+        if (planes.count == 0 &&
+            !anchored_[i]) { // may be in already: ask from within the soft body
+            const Vec3 inward = pose.rotation.transpose() * inward_at(nodes_, position, i);
+            planes.count = probe_->feel(
+                shape_.probe, pose.to_local(x) + 0.5 * probe_->radius() * inward, planes.plane);
+        }
         if (planes.count == 0) {
             anchored_[i] = 0;
             continue;

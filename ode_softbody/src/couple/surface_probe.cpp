@@ -58,6 +58,11 @@ int SurfaceProbe::feel(dGeomID geom, const Vec3& point,
     for (int i = 0; i < 3; ++i)
         rotation.row(i) = Vec3(r[4 * i], r[4 * i + 1], r[4 * i + 2]);
     const Vec3 center = position + rotation * point;
+    dReal box[6];
+    dGeomGetAABB(geom, box);
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(center[axis] > box[2 * axis] - radius_ && center[axis] < box[2 * axis + 1] + radius_))
+            return 0;
     dGeomSetPosition(ball_, center.x(), center.y(), center.z());
     dContactGeom contact[kMostContacts];
     const int n = dCollide(ball_, geom, kMostContacts, contact, sizeof contact[0]);
