@@ -74,6 +74,12 @@ bool read_size(dGeomID geom, RigidShape& shape) noexcept {
         dGeomCylinderGetParams(geom, &radius, &length);
         shape.size = Vec3(radius, 0, length / 2);
         return true;
+    case dConvexClass:
+    case dTriMeshClass:
+    case dHeightfieldClass:
+        shape.kind = ShapeKind::probed;
+        shape.probe = geom;
+        return true;
     default:
         return false;
     }
@@ -92,6 +98,7 @@ Vec3 half_extent(const RigidShape& shape) noexcept {
     case ShapeKind::cylinder:
         return {s.x(), s.x(), s.z()};
     case ShapeKind::plane:
+    case ShapeKind::probed:
         break;
     }
     return Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -120,6 +127,7 @@ double RigidShape::support(const Vec3& n) const noexcept {
     case ShapeKind::cylinder:
         return size.x() * std::hypot(n.x(), n.y()) + size.z() * std::fabs(n.z());
     case ShapeKind::plane:
+    case ShapeKind::probed:
         break;
     }
     return n.z() >= 1 ? 0 : std::numeric_limits<double>::infinity();
@@ -127,7 +135,7 @@ double RigidShape::support(const Vec3& n) const noexcept {
 
 Aabb RigidShape::bounds(const Pose& body_pose) const noexcept {
     Aabb box;
-    if (kind == ShapeKind::plane) {
+    if (kind == ShapeKind::plane || kind == ShapeKind::probed) {
         const double all = std::numeric_limits<double>::infinity();
         box.include(Vec3::Constant(all));
         box.include(Vec3::Constant(-all));
@@ -147,6 +155,8 @@ std::optional<RigidShape> capture_shape(dGeomID geom) noexcept {
         return {};
     if (!read_size(inner, shape))
         return {};
+    if (shape.kind == ShapeKind::probed && inner != geom)
+        return {}; // ODE can't be asked about a geom inside a transform without moving it
     shape.body = dGeomGetBody(geom);
     if (shape.kind == ShapeKind::plane)
         shape.pose = plane_pose(inner);

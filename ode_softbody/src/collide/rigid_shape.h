@@ -9,7 +9,14 @@
 
 namespace ode::soft {
 
-enum class ShapeKind { plane, sphere, box, capsule, cylinder };
+enum class ShapeKind {
+    plane,
+    sphere,
+    box,
+    capsule,
+    cylinder,
+    probed ///< convex, trimesh, height field: no distance of ours, ODE is asked (SurfaceProbe)
+};
 
 /// Distance from a shape's surface, negative inside, and its gradient, which is the outward normal
 /// at the closest surface point.
@@ -29,9 +36,12 @@ struct RigidShape {
     /// z = 0 with the solid below it.
     Pose pose;
     dBodyID body = nullptr;
+    dGeomID probe =
+        nullptr; ///< of a probed kind: the geom to ask, which has to outlive the snapshot
 
-    /// Exact everywhere, inside and out, on edges and at corners; at points where several surface
-    /// points are closest, one of them. About 10 ns. @param p  in the shape's own frame [m].
+    /// Not for probed kinds. Exact everywhere, inside and out, on edges and at corners; at points
+    /// where several surface points are closest, one of them. About 10 ns. @param p  in the shape's
+    /// own frame [m].
     SurfaceDistance distance(const Vec3& p) const noexcept;
 
     /// @param body  pose of the geom's body (identity without one). @param world  point [m].
@@ -41,14 +51,14 @@ struct RigidShape {
     /// Largest n.x of the shape's points x, in its own frame. @param n  unit.
     double support(const Vec3& n) const noexcept;
 
-    /// Box that holds the shape; a plane's is unbounded.
+    /// Box that holds the shape; a plane's and a probed kind's are unbounded.
     Aabb bounds(const Pose& body_pose) const noexcept;
 };
 
 /// Takes the snapshot. Geoms with an offset and geoms inside a geom transform are placed as ODE
 /// places them.
-/// @return nothing for a kind without an evaluator (rays, spaces, soft geoms, convex, trimesh,
-/// heightfield, user classes) and for sizes or poses that are not finite.
+/// @return nothing for a kind that bears nothing (rays, spaces, soft geoms, other user classes) and
+/// for sizes or poses that are not finite.
 std::optional<RigidShape> capture_shape(dGeomID geom) noexcept;
 
 } // namespace ode::soft

@@ -75,6 +75,7 @@ decltype(auto) with_distance(ShapeKind kind, F&& f) {
     case ShapeKind::cylinder:
         return f([](const Vec3& s, const Vec3& p) noexcept { return cylinder_distance(s, p); });
     case ShapeKind::plane:
+    case ShapeKind::probed: // has none; never asked
         break;
     }
     return f([](const Vec3& s, const Vec3& p) noexcept { return plane_distance(s, p); });

@@ -1,6 +1,7 @@
 #include "couple/node_contact.h"
 
 #include "collide/shape_distance.h"
+#include "couple/outward.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,15 @@ bool same_shape(const RigidShape& a, const RigidShape& b) noexcept {
     return a.kind == b.kind && a.size == b.size && a.body == b.body;
 }
 
+/// Unit vector into the soft body at a surface node; zero for a node without triangles.
+Vec3 inward_at(const SurfaceNodes& surface, const NodeArray& position, std::size_t i) noexcept {
+    Vec3 sum = Vec3::Zero();
+    if (!surface.triangle.empty())
+        for (const int t : surface.fan(surface.node[i]))
+            sum -= area_vector(surface, position, t);
+    return sum.stableNormalized();
+}
+
 } // namespace
 
 NodeContact::NodeContact(const SurfaceNodes& nodes, dGeomID geom)
@@ -33,7 +43,7 @@ NodeContact::NodeContact(const SurfaceNodes& nodes, dGeomID geom)
 }
 
 void NodeContact::begin_step(const RigidShape& shape, const ContactLaw& law,
-                             std::span<const double> inverse_mass, double dt) noexcept {
+                             std::span<const double> inverse_mass, double dt) {
     if (!same_shape(shape, shape_)) {
         std::fill(anchored_.begin(), anchored_.end(), std::uint8_t{0});
         touch_.clear();
@@ -43,8 +53,16 @@ void NodeContact::begin_step(const RigidShape& shape, const ContactLaw& law,
     shape_ = shape;
     law_ = law;
     samples_.begin_step(shape, law, dt);
-    const double share = shape.kind == ShapeKind::plane ? 1 : 0.5; // the other half is the samples'
-    const double bearable = share * kStiffnessShare / (dt * dt);   // [1/s^2]
+    // Half is the samples'; a node may meet as many as three planes of a probed shape.
+    const double share = shape.kind == ShapeKind::plane    ? 1
+                         : shape.kind == ShapeKind::probed ? 1.0 / SurfaceProbe::kMostPlanes
+                                                           : 0.5;
+    if (shape.kind == ShapeKind::probed && !probe_) {
+        probe_ = std::make_unique<SurfaceProbe>(kReach * nodes_.mean_edge);
+        planes_.reserve(nodes_.node.size());
+        touch_.reserve(SurfaceProbe::kMostPlanes * nodes_.node.size());
+    }
+    const double bearable = share * kStiffnessShare / (dt * dt); // [1/s^2]
     const double kappa = law.stiffness > 0 ? law.stiffness : bearable * nodes_.mass_per_area;
     for (std::size_t i = 0; i < stiffness_.size(); ++i) {
         const bool held = inverse_mass[index(nodes_.node[i])] == 0;
@@ -60,6 +78,7 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
     const Pose pose = shape_.pose.in(motion.pose);
     const double reach = kReach * nodes_.mean_edge;
     double nearest = std::numeric_limits<double>::infinity(); // of those left out
+    double closest = nearest;                                 // of all
     double fastest2 = 0;
     candidate_.clear();
     for (std::size_t i = 0; i < nodes_.node.size(); ++i) {
@@ -67,28 +86,74 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
         const Vec3 slip = velocity[index(nodes_.node[i])] - motion.velocity_at(x);
         fastest2 = std::fmax(fastest2, slip.squaredNorm());
         const double distance = shape_.distance(pose.to_local(x)).distance;
+        closest = std::fmin(closest, distance);
         if (distance < reach)
             candidate_.push_back(static_cast<int>(i));
         else
             nearest = std::fmin(nearest, distance);
     }
-    samples_.look(position, pose, reach);
-    look_again_in_ =
-        nearest / (kHaste * std::sqrt(fastest2) + std::sqrt(kAcceleration * nearest / 2));
+    // A triangle within reach of a sample has a corner not farther than an edge more.
+    if (closest < reach + 2 * nodes_.mean_edge)
+        samples_.look(position, pose, reach);
+    else
+        samples_.look_away();
+    // Samples lie within size of the shape's middle; rotation may move them faster than any node
+    // sees.
+    const double span = shape_.size.norm() + shape_.size.x();
+    schedule_look(nearest, std::sqrt(fastest2) + motion.spin.norm() * span);
+}
+
+void NodeContact::schedule_look(double nearest, double fastest) noexcept {
+    look_again_in_ = nearest / (kHaste * fastest + std::sqrt(kAcceleration * nearest / 2));
+}
+
+void NodeContact::probe_candidates(const NodeArray& position, const NodeArray& velocity,
+                                   const RigidMotion& motion) noexcept {
+    const Pose pose = shape_.pose.in(motion.pose);
+    double fastest2 = 0;
+    candidate_.clear();
+    planes_.clear();
+    for (std::size_t i = 0; i < nodes_.node.size(); ++i) {
+        const auto x = position[index(nodes_.node[i])];
+        const Vec3 slip = velocity[index(nodes_.node[i])] - motion.velocity_at(x);
+        fastest2 = std::fmax(fastest2, slip.squaredNorm());
+        // A node that is in is looked at from outside, where ODE's answers are good.
+        const Vec3 lift = anchored_[i] ? Vec3(0.5 * probe_->radius() * entered_[i]) : Vec3::Zero();
+        Planes planes;
+        planes.count = probe_->feel(shape_.probe, pose.to_local(x) + lift, planes.plane);
+        if (planes.count == 0 &&
+            !anchored_[i]) { // may be in already: ask from within the soft body
+            const Vec3 inward = pose.rotation.transpose() * inward_at(nodes_, position, i);
+            planes.count = probe_->feel(
+                shape_.probe, pose.to_local(x) + 0.5 * probe_->radius() * inward, planes.plane);
+        }
+        if (planes.count == 0) {
+            anchored_[i] = 0;
+            continue;
+        }
+        candidate_.push_back(static_cast<int>(i));
+        planes_.push_back(planes);
+    }
+    schedule_look(probe_->radius(), std::sqrt(fastest2));
 }
 
 ContactTally NodeContact::add_force(const NodeArray& position, const NodeArray& velocity,
                                     RigidShadow& rigid, double dt, NodeArray& force) noexcept {
     ContactTally tally;
     if (look_again_in_ <= 0) {
-        find_candidates(position, velocity, rigid.motion());
+        if (shape_.kind == ShapeKind::probed)
+            probe_candidates(position, velocity, rigid.motion());
+        else
+            find_candidates(position, velocity, rigid.motion());
         tally.tests += nodes_.node.size();
     }
     look_again_in_ -= dt;
     touch_.clear();
     softening_ = 1;
     double load = 0;
-    if (!candidate_.empty())
+    if (shape_.kind == ShapeKind::probed)
+        load = find_touching_planes(position, rigid, dt);
+    else if (!candidate_.empty())
         load = with_distance(shape_.kind, [&](auto distance_of) {
             return find_touching(distance_of, position, rigid, dt);
         });
@@ -126,6 +191,34 @@ double NodeContact::find_touching(Distance distance_of, const NodeArray& positio
         load +=
             (stiffness_[index(i)] * dt + 2 * damping_[index(i)]) * dt * rigid.compliance(x, normal);
         touch_.push_back({i, local, gap.normal, normal, -gap.distance});
+    }
+    return load;
+}
+
+double NodeContact::find_touching_planes(const NodeArray& position, const RigidShadow& rigid,
+                                         double dt) noexcept {
+    const Pose pose = shape_.pose.in(rigid.motion().pose);
+    double load = 0;
+    for (std::size_t c = 0; c < candidate_.size(); ++c) {
+        const std::size_t i = index(candidate_[c]);
+        const Vec3 x = position[index(nodes_.node[i])];
+        const Vec3 local = pose.to_local(x);
+        const Planes& planes = planes_[c];
+        double deepest = 0;
+        for (int k = 0; k < planes.count; ++k) {
+            const TangentPlane& plane = planes.plane[index(k)];
+            const double depth = plane.offset - plane.normal.dot(local);
+            if (depth <= 0)
+                continue;
+            const Vec3 normal = pose.rotation * plane.normal;
+            load += (stiffness_[i] * dt + 2 * damping_[i]) * dt * rigid.compliance(x, normal);
+            touch_.push_back({candidate_[c], local, plane.normal, normal, depth});
+            if (depth > deepest)
+                entered_[i] = plane.normal;
+            deepest = std::fmax(deepest, depth);
+        }
+        if (deepest == 0)
+            anchored_[i] = 0;
     }
     return load;
 }

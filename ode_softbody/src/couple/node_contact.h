@@ -5,8 +5,11 @@
 #include "couple/rigid_shadow.h"
 #include "couple/sample_contact.h"
 #include "couple/surface_nodes.h"
+#include "couple/surface_probe.h"
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -40,7 +43,7 @@ struct ContactTally {
 class NodeContact {
 public:
     /// @param nodes  borrowed for the contact's life. Allocates all it will ever need.
-    /// @param geom   names the pair; never dereferenced.
+    /// @param geom   names the pair; never dereferenced but through a probed shape.
     NodeContact(const SurfaceNodes& nodes, dGeomID geom);
 
     dGeomID geom() const noexcept { return geom_; }
@@ -48,7 +51,7 @@ public:
     /// Start of a step. Anchors are kept unless the shape has become another one.
     /// @param inverse_mass  of every mesh node [1/kg]; 0: held, so that its mass bounds nothing.
     void begin_step(const RigidShape& shape, const ContactLaw& law,
-                    std::span<const double> inverse_mass, double dt) noexcept;
+                    std::span<const double> inverse_mass, double dt);
 
     /// Adds contact forces to `force` [N] and their reaction to `rigid`. Looks for nodes near the
     /// shape anew whenever they may have come within reach since it looked last.
@@ -64,6 +67,11 @@ public:
 private:
     void find_candidates(const NodeArray& position, const NodeArray& velocity,
                          const RigidMotion& motion) noexcept;
+    /// The same for probed shapes: planes_ run parallel to candidate_.
+    void probe_candidates(const NodeArray& position, const NodeArray& velocity,
+                          const RigidMotion& motion) noexcept;
+
+    void schedule_look(double nearest, double fastest) noexcept;
 
     /// A node inside the shape.
     struct Touch {
@@ -78,6 +86,8 @@ private:
     template <class Distance>
     double find_touching(Distance distance_of, const NodeArray& position, const RigidShadow& rigid,
                          double dt) noexcept;
+    double find_touching_planes(const NodeArray& position, const RigidShadow& rigid,
+                                double dt) noexcept;
     void push(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid,
               NodeArray& force) noexcept;
 
@@ -94,6 +104,12 @@ private:
     std::vector<int> candidate_;         ///< surface nodes near the shape
     std::vector<Touch> touch_;           ///< of the last substep
     SampleContact samples_;
+    struct Planes {
+        int count;
+        std::array<TangentPlane, SurfaceProbe::kMostPlanes> plane;
+    };
+    std::unique_ptr<SurfaceProbe> probe_; ///< of a probed shape
+    std::vector<Planes> planes_;
     double look_again_in_ = 0; ///< [s]
     double softening_ = 1;     ///< in the last substep
 };

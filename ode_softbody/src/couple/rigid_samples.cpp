@@ -68,6 +68,7 @@ std::vector<RigidSample> sample_shape(const RigidShape& shape, double spacing) {
         add_rims(radius, end.z(), spacing, out);
         break;
     case ShapeKind::plane:
+    case ShapeKind::probed:
         break;
     }
     return out;

@@ -64,6 +64,13 @@ void SampleContact::look(const NodeArray& position, const Pose& shape, double re
     }
 }
 
+void SampleContact::look_away() noexcept {
+    if (!near_.empty())
+        forget();
+    near_.clear();
+    touch_.clear();
+}
+
 SampleContact::Closest SampleContact::find_closest(const Near& near, const Vec3& center,
                                                    const State& state,
                                                    const NodeArray& position) const noexcept {

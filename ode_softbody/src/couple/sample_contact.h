@@ -29,7 +29,11 @@ public:
     /// Pairs samples with triangles no farther than `reach` [m] from them.
     void look(const NodeArray& position, const Pose& shape, double reach);
 
-    /// @return what the contacts ask of the rigid body's stability; tests are added up.
+    /// The surface is out of every sample's reach.
+    void look_away() noexcept;
+
+    /// Fills touch_. @return what the contacts ask of the rigid body's stability; tests are added
+    /// up.
     double find_touching(const NodeArray& position, const Pose& shape, const RigidShadow& rigid,
                          double dt, unsigned long& tests) noexcept;
     /// Adds the forces of the contacts found.

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 namespace {
@@ -104,6 +105,68 @@ TEST(RigidExchange, SoftBoxComesToRestOnAFloorThatTheCallbackKnows) {
     EXPECT_LT(vec(momentum).norm(), 1e-5); // of 1 kg; its sway decays by e in 0.3 s
     EXPECT_FALSE(app.saw_soft);
 }
+
+/// Floors with their top at z = 0, in all the kinds that ODE has for one.
+enum class Floor { plane, box, cylinder, trimesh, heightfield };
+
+class RestsOn : public testing::TestWithParam<Floor> {};
+
+constexpr dReal kSlab[] = {-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1,
+                           -1, -1, 0,  1, -1, 0,  -1, 1, 0,  1, 1, 0};
+constexpr dTriIndex kSlabTriangle[] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                       2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+dReal flat(void*, int, int) { return 0; }
+
+TEST_P(RestsOn, AsOnAPlane) {
+    App app;
+    dWorldSetGravity(app.world, 0, 0, -9.81);
+    const dTriMeshDataID triangles = dGeomTriMeshDataCreate();
+    dGeomTriMeshDataBuildDouble(triangles, kSlab, 3 * sizeof(dReal), 8, kSlabTriangle, 36,
+                                3 * sizeof(dTriIndex));
+    const dHeightfieldDataID field = dGeomHeightfieldDataCreate();
+    dGeomHeightfieldDataBuildCallback(field, nullptr, &flat, 2, 2, 21, 21, 1, 0, 1, 0);
+    dGeomHeightfieldDataSetBounds(field, -0.5, 0.5);
+    dMatrix3 upright;
+    dRFromAxisAndAngle(upright, 1, 0, 0, M_PI / 2); // height fields have y up
+    switch (GetParam()) {
+    case Floor::plane:
+        dCreatePlane(app.space, 0, 0, 1, 0);
+        break;
+    case Floor::box:
+        dGeomSetPosition(dCreateBox(app.space, 2, 2, 1), 0, 0, -0.5);
+        break;
+    case Floor::cylinder:
+        dGeomSetPosition(dCreateCylinder(app.space, 1, 1), 0, 0, -0.5);
+        break;
+    case Floor::trimesh:
+        dCreateTriMesh(app.space, triangles, nullptr, nullptr, nullptr);
+        break;
+    case Floor::heightfield:
+        dGeomSetRotation(dCreateHeightfield(app.space, field, 1), upright);
+        break;
+    }
+    const dSoftBodyID box = app.soft_box(0.1, 3, 2e5, 1000, 1e-3);
+    dSoftBodySetPosition(box, 0.013, 0.021, 0.06);
+    for (int i = 0; i < 300; ++i)
+        app.step(0.005);
+    dVector3 centre;
+    dVector3 momentum;
+    dVector3 spin;
+    dSoftBodyGetCenterOfMass(box, centre);
+    dSoftBodyGetMomentum(box, momentum, spin);
+    std::printf("centre of mass %.4f mm up, momentum %.1e\n", 1e3 * centre[2],
+                vec(momentum).norm());
+    EXPECT_LT(centre[2], 0.05); // as above; a third of the contact stiffness on probed kinds
+    EXPECT_GT(centre[2], 0.0480);
+    EXPECT_LT(vec(momentum).norm(), 0.02); // of 1 kg: it may still sway
+    EXPECT_LT(std::hypot(centre[0] - 0.013, centre[1] - 0.021), 5e-3);
+    dGeomTriMeshDataDestroy(triangles);
+    dGeomHeightfieldDataDestroy(field);
+}
+
+INSTANTIATE_TEST_SUITE_P(Floors, RestsOn,
+                         testing::Values(Floor::plane, Floor::box, Floor::cylinder, Floor::trimesh,
+                                         Floor::heightfield));
 
 struct Throw {
     double mass_ratio; ///< rigid to soft
