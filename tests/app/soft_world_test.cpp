@@ -28,7 +28,8 @@ dSoftSolid rubber() {
 }
 
 struct SoftApp : OdeApp {
-    explicit SoftApp(dReal gravity_z = 0) : OdeApp(gravity_z), soft(dSoftWorldCreate(world, space)) {}
+    explicit SoftApp(dReal gravity_z = 0)
+        : OdeApp(gravity_z), soft(dSoftWorldCreate(world, space)) {}
 
     dSoftBodyID add_cube(dReal side, dReal z, const dSoftSolid& solid = rubber()) {
         MeshHandle mesh(dSoftMeshCreateBox(side, side, side, 3, 3, 3));

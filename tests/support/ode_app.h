@@ -55,8 +55,8 @@ private:
         for (int i = 0; i < n; ++i) {
             contact[i].surface.mode = dContactApprox1;
             contact[i].surface.mu = 0.5;
-            dJointAttach(dJointCreateContact(app.world, app.contacts, &contact[i]),
-                         dGeomGetBody(a), dGeomGetBody(b));
+            dJointAttach(dJointCreateContact(app.world, app.contacts, &contact[i]), dGeomGetBody(a),
+                         dGeomGetBody(b));
         }
     }
 };

@@ -27,7 +27,8 @@ typedef struct dxSoftBody* dSoftBodyID;
 /** How the library learns that ODE's world is stepped. */
 typedef enum dSoftHook {
     dSoftHookNone,       /**< it doesn't: call dSoftWorldStep() */
-    dSoftHookInterposed, /**< dWorldStep and dWorldQuickStep are ours: linked before ODE, preloaded */
+    dSoftHookInterposed, /**< dWorldStep and dWorldQuickStep are ours: linked before ODE, preloaded
+                          */
     dSoftHookThreading   /**< a wrapped threading implementation of the world announces the step */
 } dSoftHook;
 
@@ -61,8 +62,9 @@ DSOFT_API int dSoftWorldGetStats(dSoftWorldID world, dSoftWorldStats* stats);
 
 /* ---- Mesh -------------------------------------------------------------------------------- */
 
-/** Reads linear tetrahedra from Gmsh .msh (2.2, 4.1), TetGen .node/.ele, legacy .vtk or Medit .mesh,
- * chosen by the file's ending. The mesh belongs to the caller; bodies keep what they need of it. */
+/** Reads linear tetrahedra from Gmsh .msh (2.2, 4.1), TetGen .node/.ele, legacy .vtk or Medit
+ * .mesh, chosen by the file's ending. The mesh belongs to the caller; bodies keep what they need of
+ * it. */
 DSOFT_API dSoftMeshID dSoftMeshLoad(const char* path);
 
 /** Mesh from arrays. @param nodes xyz packed [m]. @param tets four node indices each, from 0. */
@@ -75,9 +77,10 @@ DSOFT_API dSoftMeshID dSoftMeshCreateBox(dReal x, dReal y, dReal z, int nx, int 
 DSOFT_API dSoftMeshID dSoftMeshCreateBar(dReal length, dReal width, dReal thickness, int nx, int ny,
                                          int nz);
 /** Plate in the xy plane centred on the origin [m], thickness along z. */
-DSOFT_API dSoftMeshID dSoftMeshCreatePlate(dReal length, dReal width, dReal thickness, int nx, int ny,
-                                           int nz);
-/** Spherical shell, lowest point at z = -radius, open towards +z from polar angle `opening` [rad]. */
+DSOFT_API dSoftMeshID dSoftMeshCreatePlate(dReal length, dReal width, dReal thickness, int nx,
+                                           int ny, int nz);
+/** Spherical shell, lowest point at z = -radius, open towards +z from polar angle `opening` [rad].
+ */
 DSOFT_API dSoftMeshID dSoftMeshCreateBowl(dReal radius, dReal thickness, dReal opening, int rings,
                                           int around, int layers);
 /** Tube along z from 0 to length [m]. */
@@ -94,13 +97,13 @@ typedef struct dSoftMeshQuality {
     int nodes;
     int elements;
     int surface_triangles;
-    int parts;             /**< pieces that share no node */
-    int worst;             /**< element of min_quality */
-    dReal min_quality;     /**< 1 regular tetrahedron, 0 flat */
-    dReal volume;          /**< [m^3] */
-    dReal min_edge;        /**< [m] */
-    dReal max_edge;        /**< [m] */
-    dReal bounds[6];       /**< xmin xmax ymin ymax zmin zmax [m], the order of dGeomGetAABB */
+    int parts;         /**< pieces that share no node */
+    int worst;         /**< element of min_quality */
+    dReal min_quality; /**< 1 regular tetrahedron, 0 flat */
+    dReal volume;      /**< [m^3] */
+    dReal min_edge;    /**< [m] */
+    dReal max_edge;    /**< [m] */
+    dReal bounds[6];   /**< xmin xmax ymin ymax zmin zmax [m], the order of dGeomGetAABB */
 } dSoftMeshQuality;
 DSOFT_API int dSoftMeshGetQuality(dSoftMeshID mesh, dSoftMeshQuality* quality);
 
@@ -127,10 +130,12 @@ DSOFT_API const char* dSoftSolidPresetName(int i);
 /* ---- Body -------------------------------------------------------------------------------- */
 
 /** A body at rest in the mesh's own coordinates. Place it before the first step. */
-DSOFT_API dSoftBodyID dSoftBodyCreate(dSoftWorldID world, dSoftMeshID mesh, const dSoftSolid* solid);
+DSOFT_API dSoftBodyID dSoftBodyCreate(dSoftWorldID world, dSoftMeshID mesh,
+                                      const dSoftSolid* solid);
 DSOFT_API void dSoftBodyDestroy(dSoftBodyID body);
 
-DSOFT_API void dSoftBodySetData(dSoftBodyID body, void* data); /**< yours; the library never looks */
+DSOFT_API void dSoftBodySetData(dSoftBodyID body,
+                                void* data); /**< yours; the library never looks */
 DSOFT_API void* dSoftBodyGetData(dSoftBodyID body);
 
 /** Substep [s]: 0 lets the library choose 0.9 of the critical step. Refused above the critical. */
@@ -159,9 +164,9 @@ DSOFT_API int dSoftBodyAddForceAtNode(dSoftBodyID body, int node, dReal fx, dRea
 /** Contact of this body's surface. Start from dSoftContactDefault(). */
 typedef struct dSoftContact {
     unsigned struct_size;
-    dReal friction;    /**< Coulomb's coefficient [-], >= 0; dInfinity sticks */
-    dReal stiffness;   /**< penalty per area and depth [Pa/m]; 0: as stiff as the substep allows */
-    dReal damping;     /**< time constant of normal and tangential damping [s], >= 0 */
+    dReal friction;  /**< Coulomb's coefficient [-], >= 0; dInfinity sticks */
+    dReal stiffness; /**< penalty per area and depth [Pa/m]; 0: as stiff as the substep allows */
+    dReal damping;   /**< time constant of normal and tangential damping [s], >= 0 */
 } dSoftContact;
 DSOFT_API dSoftContact dSoftContactDefault(void);
 DSOFT_API int dSoftBodySetContact(dSoftBodyID body, const dSoftContact* contact);
@@ -176,7 +181,7 @@ DSOFT_API int dSoftBodyGetVelocities(dSoftBodyID body, const dReal** first, int*
  * @return triangle count. */
 DSOFT_API int dSoftBodyGetTriangles(dSoftBodyID body, const int** first);
 
-DSOFT_API dReal dSoftBodyGetMass(dSoftBodyID body);                       /**< [kg] */
+DSOFT_API dReal dSoftBodyGetMass(dSoftBodyID body);                         /**< [kg] */
 DSOFT_API void dSoftBodyGetCenterOfMass(dSoftBodyID body, dVector3 center); /**< [m] */
 DSOFT_API void dSoftBodyGetMomentum(dSoftBodyID body, dVector3 linear, dVector3 angular);
 /**< [kg m/s], [kg m^2/s] about the world's origin */
@@ -191,12 +196,12 @@ DSOFT_API dSoftEnergy dSoftBodyGetEnergy(dSoftBodyID body);
 /** How a body fares. */
 typedef struct dSoftStatus {
     unsigned struct_size;
-    int stopped;          /**< 1: it went unstable, was reported and stands still */
-    dReal substep;        /**< in use [s] */
-    dReal critical_step;  /**< [s] */
-    dReal min_jacobian;   /**< least volume ratio of an element in the last step */
-    dReal max_stretch;    /**< upper bound of the largest stretch in the last step */
-    int contact_points;   /**< that bore force in the last substep */
+    int stopped;         /**< 1: it went unstable, was reported and stands still */
+    dReal substep;       /**< in use [s] */
+    dReal critical_step; /**< [s] */
+    dReal min_jacobian;  /**< least volume ratio of an element in the last step */
+    dReal max_stretch;   /**< upper bound of the largest stretch in the last step */
+    int contact_points;  /**< that bore force in the last substep */
 } dSoftStatus;
 DSOFT_API int dSoftBodyGetStatus(dSoftBodyID body, dSoftStatus* status);
 
@@ -216,13 +221,13 @@ DSOFT_API dSoftBodyID dSoftGeomGetSoftBody(dGeomID geom);
 typedef struct dSoftSubstep {
     unsigned struct_size;
     dSoftBodyID body;
-    dReal time;              /**< [s] since the world's creation */
-    dReal dt;                /**< [s] */
-    const dReal* position;   /**< of every node [m], world frame, x y z and padding */
-    const dReal* velocity;   /**< of every node [m/s], half a substep back */
-    int stride;              /**< dReals from node to node */
+    dReal time;            /**< [s] since the world's creation */
+    dReal dt;              /**< [s] */
+    const dReal* position; /**< of every node [m], world frame, x y z and padding */
+    const dReal* velocity; /**< of every node [m/s], half a substep back */
+    int stride;            /**< dReals from node to node */
     int node_count;
-    const int* triangle;     /**< three nodes each, outward; same array for the body's life */
+    const int* triangle; /**< three nodes each, outward; same array for the body's life */
     int triangle_count;
 } dSoftSubstep;
 

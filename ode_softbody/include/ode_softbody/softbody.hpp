@@ -13,8 +13,12 @@
 namespace ode::soft {
 
 /// Destroys an id with the C function it belongs to.
-template <auto Destroy> struct Destroyer {
-    template <class Object> void operator()(Object* id) const noexcept { Destroy(id); }
+template <auto Destroy>
+struct Destroyer {
+    template <class Object>
+    void operator()(Object* id) const noexcept {
+        Destroy(id);
+    }
 };
 
 /// Owner of an id.

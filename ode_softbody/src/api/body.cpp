@@ -36,9 +36,8 @@ dSoftBodyID dSoftBodyCreate(dSoftWorldID world, dSoftMeshID mesh, const dSoftSol
     require_id(world, __func__);
     require_id(mesh, __func__);
     require_id(solid, __func__);
-    return guarded(__func__, dSoftBodyID{}, [&] {
-        return to_id(from_id(world).create_body(mesh->mesh, from_c(*solid)));
-    });
+    return guarded(__func__, dSoftBodyID{},
+                   [&] { return to_id(from_id(world).create_body(mesh->mesh, from_c(*solid))); });
 }
 
 void dSoftBodyDestroy(dSoftBodyID id) {
@@ -64,9 +63,10 @@ int dSoftBodySetSubstep(dSoftBodyID id, dReal dt) {
         return 1;
     }
     if (!(dt > 0 && dt <= body.critical_step())) {
-        report(format("dSoftBodySetSubstep: %g s is outside (0, %g s], the stable range of this body; "
-                      "give 0 to let the library choose",
-                      dt, body.critical_step()));
+        report(
+            format("dSoftBodySetSubstep: %g s is outside (0, %g s], the stable range of this body; "
+                   "give 0 to let the library choose",
+                   dt, body.critical_step()));
         return 0;
     }
     body.set_substep(dt);
@@ -96,8 +96,8 @@ int dSoftBodyRotate(dSoftBodyID id, const dQuaternion q) {
     const Quat rotation(q[0], q[1], q[2], q[3]);
     constexpr double kUnit = 1e-6; // a quaternion from ODE is normalised to rounding
     if (!(std::abs(rotation.norm() - 1) < kUnit)) {
-        report(format("dSoftBodyRotate: the quaternion has length %g; normalise it",
-                      rotation.norm()));
+        report(
+            format("dSoftBodyRotate: the quaternion has length %g; normalise it", rotation.norm()));
         return 0;
     }
     from_id(id).rotate(rotation.normalized());
@@ -250,9 +250,10 @@ int dSoftBodySetContact(dSoftBodyID id, const dSoftContact* contact) {
         copy_in(*contact, "dSoftContactDefault", &c);
         if (!(c.friction >= 0 && c.stiffness >= 0 && c.damping >= 0 && std::isfinite(c.stiffness) &&
               std::isfinite(c.damping)))
-            throw InputError(format("friction %g, stiffness %g Pa/m or damping %g s is negative or not "
-                                    "a number; give values of at least 0",
-                                    c.friction, c.stiffness, c.damping));
+            throw InputError(
+                format("friction %g, stiffness %g Pa/m or damping %g s is negative or not "
+                       "a number; give values of at least 0",
+                       c.friction, c.stiffness, c.damping));
         from_id(id).set_contact_law({c.friction, c.stiffness, c.damping});
         return 1;
     });

@@ -17,14 +17,10 @@ namespace ode::soft {
 inline dSoftWorldID to_id(SoftWorld& world) noexcept {
     return reinterpret_cast<dSoftWorldID>(&world);
 }
-inline SoftWorld& from_id(dSoftWorldID id) noexcept {
-    return *reinterpret_cast<SoftWorld*>(id);
-}
+inline SoftWorld& from_id(dSoftWorldID id) noexcept { return *reinterpret_cast<SoftWorld*>(id); }
 inline dSoftBodyID to_id(const Body& body) noexcept {
     return reinterpret_cast<dSoftBodyID>(const_cast<Body*>(&body));
 }
-inline Body& from_id(dSoftBodyID id) noexcept {
-    return *reinterpret_cast<Body*>(id);
-}
+inline Body& from_id(dSoftBodyID id) noexcept { return *reinterpret_cast<Body*>(id); }
 
 } // namespace ode::soft

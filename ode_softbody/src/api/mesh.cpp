@@ -10,7 +10,8 @@ using namespace ode::soft;
 
 namespace {
 
-template <class Make> dSoftMeshID make_mesh(const char* function, Make&& make) noexcept {
+template <class Make>
+dSoftMeshID make_mesh(const char* function, Make&& make) noexcept {
     return guarded(function, dSoftMeshID{}, [&] { return new dxSoftMesh{make()}; });
 }
 
@@ -26,8 +27,9 @@ dSoftMeshID dSoftMeshCreate(const dReal* nodes, int node_count, const int* tets,
     require_id(tets, __func__);
     return make_mesh(__func__, [&] {
         if (node_count < 4 || tet_count < 1)
-            throw InputError(format("%d nodes and %d tetrahedra make no solid: give at least 4 and 1",
-                                    node_count, tet_count));
+            throw InputError(
+                format("%d nodes and %d tetrahedra make no solid: give at least 4 and 1",
+                       node_count, tet_count));
         TetMesh mesh;
         for (int i = 0; i < node_count; ++i)
             mesh.node.emplace_back(nodes[3 * i], nodes[3 * i + 1], nodes[3 * i + 2]);
@@ -45,7 +47,8 @@ dSoftMeshID dSoftMeshCreateBar(dReal length, dReal width, dReal thickness, int n
     return make_mesh(__func__, [&] { return make_bar(length, width, thickness, nx, ny, nz); });
 }
 
-dSoftMeshID dSoftMeshCreatePlate(dReal length, dReal width, dReal thickness, int nx, int ny, int nz) {
+dSoftMeshID dSoftMeshCreatePlate(dReal length, dReal width, dReal thickness, int nx, int ny,
+                                 int nz) {
     return make_mesh(__func__, [&] { return make_plate(length, width, thickness, nx, ny, nz); });
 }
 
@@ -66,9 +69,7 @@ dSoftMeshID dSoftMeshCreateSphere(dReal radius, int refinement) {
     return make_mesh(__func__, [&] { return make_sphere(radius, refinement); });
 }
 
-void dSoftMeshDestroy(dSoftMeshID mesh) {
-    delete mesh;
-}
+void dSoftMeshDestroy(dSoftMeshID mesh) { delete mesh; }
 
 int dSoftMeshGetQuality(dSoftMeshID id, dSoftMeshQuality* out) {
     require_id(id, __func__);

@@ -1,7 +1,7 @@
+#include "world/observer.h"
 #include "api/boundary.h"
 #include "api/handles.h"
 #include "api/versioned.h"
-#include "world/observer.h"
 
 using namespace ode::soft;
 

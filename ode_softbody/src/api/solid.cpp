@@ -42,9 +42,7 @@ Solid from_c(const dSoftSolid& given) {
 
 using namespace ode::soft;
 
-dSoftSolid dSoftSolidDefault(void) {
-    return to_c(find_material("steel")->solid);
-}
+dSoftSolid dSoftSolidDefault(void) { return to_c(find_material("steel")->solid); }
 
 int dSoftSolidPreset(const char* name, dSoftSolid* solid) {
     const Material* material = find_material(name);
@@ -61,6 +59,7 @@ int dSoftSolidPreset(const char* name, dSoftSolid* solid) {
 
 const char* dSoftSolidPresetName(int i) {
     const auto all = materials();
-    return i >= 0 && static_cast<std::size_t>(i) < all.size() ? all[static_cast<std::size_t>(i)].name
-                                                              : nullptr;
+    return i >= 0 && static_cast<std::size_t>(i) < all.size()
+               ? all[static_cast<std::size_t>(i)].name
+               : nullptr;
 }

@@ -27,10 +27,11 @@ int copy_out(const char* function, const Struct& from, Struct* to) noexcept {
 
 /// Fields that the application doesn't know keep the value they have in `to`.
 /// @throws InputError naming the function that makes the default.
-template <class Struct> void copy_in(const Struct& from, const char* default_function, Struct* to) {
+template <class Struct>
+void copy_in(const Struct& from, const char* default_function, Struct* to) {
     if (from.struct_size < sizeof(unsigned))
-        throw InputError(format("struct_size is %u; start from %s()", from.struct_size,
-                                default_function));
+        throw InputError(
+            format("struct_size is %u; start from %s()", from.struct_size, default_function));
     std::memcpy(to, &from, std::min<std::size_t>(from.struct_size, sizeof(Struct)));
 }
 

@@ -20,8 +20,6 @@ std::string format(const char* text, ...) {
     return out;
 }
 
-void report(const std::string& sentence) noexcept {
-    dMessage(0, "%s", sentence.c_str());
-}
+void report(const std::string& sentence) noexcept { dMessage(0, "%s", sentence.c_str()); }
 
 } // namespace ode::soft

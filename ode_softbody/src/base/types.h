@@ -15,19 +15,27 @@ using Mat3 = Eigen::Matrix3d;
 using Quat = Eigen::Quaterniond;
 
 /// Hands out storage on 64-byte boundaries: one cache line, one AVX-512 register.
-template <class T> struct AlignedAllocator {
+template <class T>
+struct AlignedAllocator {
     using value_type = T;
     static constexpr std::align_val_t kAlignment{64};
 
     AlignedAllocator() = default;
-    template <class U> AlignedAllocator(const AlignedAllocator<U>&) noexcept {}
+    template <class U>
+    AlignedAllocator(const AlignedAllocator<U>&) noexcept {}
 
-    T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), kAlignment)); }
+    T* allocate(std::size_t n) {
+        return static_cast<T*>(::operator new(n * sizeof(T), kAlignment));
+    }
     void deallocate(T* p, std::size_t) noexcept { ::operator delete(p, kAlignment); }
-    template <class U> bool operator==(const AlignedAllocator<U>&) const noexcept { return true; }
+    template <class U>
+    bool operator==(const AlignedAllocator<U>&) const noexcept {
+        return true;
+    }
 };
 
-template <class T> using AlignedVector = std::vector<T, AlignedAllocator<T>>;
+template <class T>
+using AlignedVector = std::vector<T, AlignedAllocator<T>>;
 
 /// One 3-vector per node, stored x y z 0, so that a node is one 32-byte register load. The fourth
 /// number stays zero: kernels rely on it.

@@ -12,8 +12,8 @@ namespace ode::soft {
 /// substep ago, and b, one substep ahead,
 ///     F = (V(b) - V(a)) / (b - a),   b = b0 - g F,
 /// changes (v_+^2 - v_-^2) / 2 by exactly (V(a) - V(b)) / 2 (S. Bilbao, A. Torin, V. Chatziioannou,
-/// Acta Acustica 101 (2015), doi:10.3813/AAA.918813). V is quadratic on each side, so b is the root of
-/// a quadratic and needs no iteration.
+/// Acta Acustica 101 (2015), doi:10.3813/AAA.918813). V is quadratic on each side, so b is the root
+/// of a quadratic and needs no iteration.
 /// @param k   [N/m], >= 0
 /// @param g   dt^2 times the inverse effective mass of the two sides [s^2/kg], > 0
 /// @param a   depth a substep ago [m]

@@ -32,9 +32,7 @@ constexpr std::array kMaterials = {
 
 } // namespace
 
-std::span<const Material> materials() noexcept {
-    return kMaterials;
-}
+std::span<const Material> materials() noexcept { return kMaterials; }
 
 const Material* find_material(std::string_view name) noexcept {
     for (const Material& m : kMaterials)

@@ -10,7 +10,8 @@ struct Solid {
     double phi = 0;     ///< viscous counterpart of lambda [Pa s] (P01 3.1)
     double psi = 0;     ///< viscous counterpart of mu [Pa s] (P01 3.1)
     double alpha = 0;   ///< mass-proportional damping [1/s]
-    double beta = 0;    ///< stiffness-proportional damping [s]; adds beta*lambda to phi, beta*mu to psi
+    double beta =
+        0; ///< stiffness-proportional damping [s]; adds beta*lambda to phi, beta*mu to psi
 
     /// First Lame parameter [Pa].
     double lambda() const noexcept { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }

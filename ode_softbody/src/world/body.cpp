@@ -44,7 +44,8 @@ Body::Body(SoftWorld& world, const TetMesh& mesh, const Solid& solid)
         state_.position[i] = mesh_.node[i];
     unpin();
     total_mass_ = std::accumulate(mass().begin(), mass().end(), 0.0);
-    critical_step_ = ode::soft::critical_step(*model_, inverse_mass_, state_.position, viscous_time(solid_));
+    critical_step_ =
+        ode::soft::critical_step(*model_, inverse_mass_, state_.position, viscous_time(solid_));
     use_default_substep();
     contact_nodes_ = SurfaceNodes(mesh_, surface_, mass());
     geom_ = create_soft_geom(world.space(), *this);
@@ -55,13 +56,9 @@ Body::~Body() {
         destroy_soft_geom(geom_);
 }
 
-Body* Body::behind(dGeomID geom) noexcept {
-    return static_cast<Body*>(soft_geom_client(geom));
-}
+Body* Body::behind(dGeomID geom) noexcept { return static_cast<Body*>(soft_geom_client(geom)); }
 
-void Body::use_default_substep() noexcept {
-    substep_ = kStepSafety * critical_step_;
-}
+void Body::use_default_substep() noexcept { substep_ = kStepSafety * critical_step_; }
 
 Vec3 Body::center_of_mass() const noexcept {
     Vec3 sum = Vec3::Zero();
@@ -91,9 +88,7 @@ double Body::kinetic_energy() const noexcept {
     return sum / 2;
 }
 
-double Body::elastic_energy() const noexcept {
-    return model_->energy(state_.position);
-}
+double Body::elastic_energy() const noexcept { return model_->energy(state_.position); }
 
 void Body::move_to(const Vec3& center) noexcept {
     const Vec3 offset = center - center_of_mass();
@@ -183,9 +178,7 @@ void Body::end_step() noexcept {
     has_external_ = false;
 }
 
-void Body::roll_back() noexcept {
-    std::swap(state_, checkpoint_);
-}
+void Body::roll_back() noexcept { std::swap(state_, checkpoint_); }
 
 void Body::stop() noexcept {
     stopped_ = true;

@@ -83,7 +83,7 @@ private:
     int on_ray(dGeomID ray, int flags, dContactGeom* contact, int skip) noexcept override;
     void on_destroyed() noexcept override;
 
-    void begin_step() noexcept; ///< remembers the state to return to
+    void begin_step() noexcept;                       ///< remembers the state to return to
     void begin_substep(const Vec3& gravity) noexcept; ///< force_ becomes what acts from afar
     void advance(double dt) noexcept; ///< by the material and by force_, contact included
     void end_step() noexcept;
@@ -116,7 +116,7 @@ private:
     std::size_t bearing_points_ = 0;
     int failures_ = 0; ///< attempts at this step that went unstable
     bool stopped_ = false;
-    bool collided_ = false; ///< the space has looked at the geom since the last step
+    bool collided_ = false;     ///< the space has looked at the geom since the last step
     std::vector<dGeomID> pair_; ///< rigid geoms met since the last step
     dGeomID geom_ = nullptr;
 };

@@ -22,7 +22,8 @@ std::vector<std::unique_ptr<SoftWorld>>& worlds() {
 
 /// Takes the worlds that `matches` out of the registry; they end outside the lock, because their
 /// observers may ask for other worlds.
-template <class Predicate> std::vector<std::unique_ptr<SoftWorld>> take(Predicate matches) {
+template <class Predicate>
+std::vector<std::unique_ptr<SoftWorld>> take(Predicate matches) {
     const std::lock_guard guard(lock);
     std::vector<std::unique_ptr<SoftWorld>> taken;
     std::erase_if(worlds(), [&](std::unique_ptr<SoftWorld>& w) {
@@ -39,7 +40,8 @@ template <class Predicate> std::vector<std::unique_ptr<SoftWorld>> take(Predicat
 
 SoftWorld& create_world(dWorldID world, dSpaceID space) {
     if (find_world(world))
-        throw InputError("the ODE world has a soft world already; put all soft bodies into that one");
+        throw InputError(
+            "the ODE world has a soft world already; put all soft bodies into that one");
     auto made = std::make_unique<SoftWorld>(world, space);
     const std::lock_guard guard(lock);
     worlds().push_back(std::move(made));

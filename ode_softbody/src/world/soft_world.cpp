@@ -26,7 +26,8 @@ constexpr int kWatchInterval = 10;
 constexpr double kStretchLimit = 10;
 
 // Stretch raises the largest frequency of a St. Venant-Kirchhoff solid about in proportion, so the
-// substep follows it. @param stretch  of the step before, or of the failed attempt: maybe not finite.
+// substep follows it. @param stretch  of the step before, or of the failed attempt: maybe not
+// finite.
 double stiffening(double stretch) noexcept {
     return stretch < kStretchLimit ? std::max(1.0, stretch) : kStretchLimit;
 }
@@ -150,9 +151,10 @@ bool SoftWorld::all_sound() noexcept {
     Body& body = **failed;
     if (++body.failures_ > 1) {
         body.stop();
-        report(format("soft body %td went unstable at t = %g s (substep %g s, redone at %g s) and is "
-                      "stopped; give it a smaller substep, a stiffer material or a gentler blow",
-                      failed - body_.begin(), time_, body.substep(), body.substep() / kStretchLimit));
+        report(
+            format("soft body %td went unstable at t = %g s (substep %g s, redone at %g s) and is "
+                   "stopped; give it a smaller substep, a stiffer material or a gentler blow",
+                   failed - body_.begin(), time_, body.substep(), body.substep() / kStretchLimit));
     }
     return false;
 }

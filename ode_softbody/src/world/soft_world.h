@@ -50,7 +50,8 @@ public:
         observer_.push_back(std::move(observer));
     }
     /// Ends the observers that `chosen` accepts. @return how many.
-    template <class Predicate> std::size_t remove_observers(Predicate chosen) {
+    template <class Predicate>
+    std::size_t remove_observers(Predicate chosen) {
         return std::erase_if(observer_, [&](const auto& observer) { return chosen(*observer); });
     }
 

@@ -8,9 +8,7 @@
 namespace ode::soft {
 namespace {
 
-double potential(double k, double d) {
-    return k * std::max(0.0, d) * std::max(0.0, d) / 2;
-}
+double potential(double k, double d) { return k * std::max(0.0, d) * std::max(0.0, d) / 2; }
 
 // The relation that defines the force, whatever branch it came from.
 TEST(ConservingSpring, IsTheDiscreteGradientAtTheDepthItLeadsTo) {
