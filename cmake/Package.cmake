@@ -1,15 +1,14 @@
-# What leaves the build tree. Exports of the shared libraries, and their installation: libraries, public headers, softsound, a CMake package `ode_softbody` with the
-# targets ode_softbody::ode_softbody and ode_softbody::ode_sound, pkg-config files, and a Debian
-# package (`cpack --config build/release/CPackConfig.cmake`).
+# What leaves the build tree: the symbols the shared libraries export, and an installation of
+# libraries, public headers, softsound, a CMake package `ode_softbody` with the targets
+# ode_softbody::ode_softbody and ode_softbody::ode_sound, pkg-config files, and a Debian package
+# (`cpack --config build/release/CPackConfig.cmake`).
 include(CMakePackageConfigHelpers)
 
-set(libraries ode_softbody)
-if(TARGET ode_sound)
-    list(APPEND libraries ode_sound)
-endif()
+set(libraries ode_softbody ode_sound)
+set(exports ${PROJECT_SOURCE_DIR}/cmake/exports.map)
 foreach(library ${libraries})
-    target_link_options(${library} PRIVATE LINKER:--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map)
-    set_property(TARGET ${library} APPEND PROPERTY LINK_DEPENDS ${PROJECT_SOURCE_DIR}/cmake/exports.map)
+    target_link_options(${library} PRIVATE LINKER:--version-script=${exports})
+    set_property(TARGET ${library} APPEND PROPERTY LINK_DEPENDS ${exports})
 endforeach()
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ode_softbody)
@@ -17,10 +16,8 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ode_softbody)
 # libode_sound finds libode_softbody beside itself wherever the tree is moved to.
 set_target_properties(${libraries} PROPERTIES INSTALL_RPATH "$ORIGIN")
 install(TARGETS ${libraries} EXPORT ode_softbody LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY ode_softbody/include/ode_softbody DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-if(TARGET ode_sound)
-    install(DIRECTORY sound/include/ode_sound DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-endif()
+install(DIRECTORY ode_softbody/include/ode_softbody sound/include/ode_sound
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 if(TARGET softsound)
     file(RELATIVE_PATH to_libraries /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
     set_target_properties(softsound PROPERTIES INSTALL_RPATH "$ORIGIN/${to_libraries}")

@@ -31,7 +31,8 @@ std::vector<Partial> find_partials(std::span<const float> ring, double rate,
     };
     std::vector<Partial> out;
     std::vector<float> around;
-    for (const double f : predicted) {
+    for (std::size_t i = 0; i < predicted.size(); ++i) {
+        const double f = predicted[i];
         const auto level = s.level.begin();
         const auto top = std::max_element(level + bin(f, -reach), level + bin(f, reach) + 1);
         around.assign(level + bin(f, -kSurroundings), level + bin(f, kSurroundings) + 1);
@@ -39,8 +40,12 @@ std::vector<Partial> find_partials(std::span<const float> ring, double rate,
         std::nth_element(around.begin(), median, around.end());
         if (static_cast<double>(*top - *median) < clear || *top < top[-1] || *top < top[1])
             continue;
-        const double at = static_cast<double>(top - level) + vertex(top[-1], top[0], top[1]);
-        out.push_back({f, at * s.row_height, static_cast<double>(*top)});
+        const double heard =
+            s.row_height * (static_cast<double>(top - level) + vertex(top[-1], top[0], top[1]));
+        const bool below = i > 0 && heard - predicted[i - 1] < f - heard;
+        const bool above = i + 1 < predicted.size() && predicted[i + 1] - heard <= heard - f;
+        if (!below && !above)
+            out.push_back({f, heard, static_cast<double>(*top)});
     }
     return out;
 }

@@ -6,6 +6,9 @@
 #include <numbers>
 
 namespace scenes {
+
+using ode::soft::MeshHandle;
+
 namespace {
 
 /// Height of the lowest node [m].
@@ -21,19 +24,19 @@ double lowest(dSoftBodyID body) {
 
 } // namespace
 
-Mesh paper_bowl() {
-    return Mesh(made(dSoftMeshCreateBowl(0.1, 0.005, std::numbers::pi / 2, 8, 48, 1)));
+MeshHandle paper_bowl() {
+    return MeshHandle(made(dSoftMeshCreateBowl(0.1, 0.005, std::numbers::pi / 2, 8, 48, 1)));
 }
 
 dSoftBodyID build(World& world, const Drop& drop) {
     dSoftSolid solid = dSoftSolidDefault();
     if (!dSoftSolidPreset(drop.material.c_str(), &solid))
         throw Refused("no such material");
-    const Mesh mesh =
-        drop.mesh.empty() ? paper_bowl() : Mesh(made(dSoftMeshLoad(drop.mesh.c_str())));
+    const MeshHandle mesh =
+        drop.mesh.empty() ? paper_bowl() : MeshHandle(made(dSoftMeshLoad(drop.mesh.c_str())));
 
     dCreatePlane(world.space(), 0, 0, 1, 0);
-    const dSoftBodyID body = made(dSoftBodyCreate(world.soft(), mesh.get(), &solid));
+    const dSoftBodyID body = made(dSoftBodyCreate(world.soft(), mesh, &solid));
     const dQuaternion q = {std::cos(drop.tilt / 2), std::sin(drop.tilt / 2), 0, 0};
     dSoftBodyRotate(body, q);
     dVector3 center;

@@ -17,7 +17,7 @@ struct Drop {
 
 /// The source paper's bowl (its 387 nodes, 1081 tetrahedra), as near as rings of whole elements
 /// allow: a hemisphere of radius 0.1 m and 5 mm thickness, 434 nodes, 1152 tetrahedra.
-Mesh paper_bowl();
+ode::soft::MeshHandle paper_bowl();
 
 /// Builds a drop in a world: floor z = 0, one body. @throws Refused
 dSoftBodyID build(World& world, const Drop& drop);

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <memory>
 #include <ode/ode.h>
-#include <ode_softbody/softbody.h>
+#include <ode_softbody/softbody.hpp>
 #include <stdexcept>
-#include <type_traits>
 
 /// Scenes: what demos, tests and benchmarks have in common. A scene is a function that builds an
 /// ODE world with soft bodies in it.
@@ -22,11 +20,6 @@ Id made(Id id) {
         throw Refused("refused by the library");
     return id;
 }
-
-struct EndOfMesh {
-    void operator()(dSoftMeshID mesh) const { dSoftMeshDestroy(mesh); }
-};
-using Mesh = std::unique_ptr<std::remove_pointer_t<dSoftMeshID>, EndOfMesh>;
 
 /// An ODE world as its applications write it: one space, contact joints made afresh each step by
 /// a near callback that knows nothing of soft bodies. dInitODE2 must have been called.

@@ -10,10 +10,10 @@
 //
 // Command. softsound demo bowl [--out bowl.wav] [--plot bowl.png] [--json bowl.json]
 //
-// Expected. Silence till 0.32 s, when the rim's lowest point strikes; then a clang, again at each
-// bounce. The lines of the spectrogram stand still from one impact to the next, at the modes marked
-// at its right edge, and change only in strength. Linear tetrahedra are too stiff in bending: the
-// lowest partial is two octaves above a real bowl's.
+// Expected. bowl.wav, bowl.png, bowl.json. Silence till 0.32 s, when the rim's lowest point
+// strikes; then a clang, again at each bounce. The lines of the spectrogram stand still from one
+// impact to the next, at the modes marked at its right edge, and change only in strength. Linear
+// tetrahedra are too stiff in bending: the lowest partial is two octaves above a real bowl's.
 
 #include "plots/partials.h"
 #include "plots/sound_picture.h"
@@ -202,6 +202,8 @@ void add_demo_bowl(CLI::App& demo, Common& common) {
         ->capture_default_str();
     add_common(bowl, common);
     bowl.callback([options, &common] {
+        if (common.json.empty())
+            common.json = options->stage.name + ".json";
         common.action = [options, &common] { return run(*options, common); };
     });
 }

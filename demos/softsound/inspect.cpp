@@ -48,10 +48,10 @@ std::vector<std::string> warnings(const dSoftMeshQuality& q, double longest) {
 }
 
 int run(const Options& o, const Common& common) {
-    const scenes::Mesh mesh(scenes::made(dSoftMeshLoad(o.mesh.c_str())));
+    const ode::soft::MeshHandle mesh(scenes::made(dSoftMeshLoad(o.mesh.c_str())));
     dSoftMeshQuality q = {};
     q.struct_size = sizeof q;
-    if (!dSoftMeshGetQuality(mesh.get(), &q))
+    if (!dSoftMeshGetQuality(mesh, &q))
         return 1;
     // Lengths scale; counts and the quality of a shape don't.
     q.volume *= o.scale * o.scale * o.scale;

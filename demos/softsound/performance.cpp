@@ -8,17 +8,10 @@
 #include <stdexcept>
 
 namespace softsound {
+
+using SinkHandle = ode::sound::SinkHandle;
+
 namespace {
-
-struct EndOfSink {
-    void operator()(dSoundSinkID sink) const { dSoundSinkDestroy(sink); }
-};
-using Sink = std::unique_ptr<std::remove_pointer_t<dSoundSinkID>, EndOfSink>;
-
-struct EndOfSound {
-    void operator()(dSoundWorldID world) const { dSoundWorldDestroy(world); }
-};
-using Sound = std::unique_ptr<std::remove_pointer_t<dSoundWorldID>, EndOfSound>;
 
 /// CPU time of this process, all threads [s].
 double cpu_seconds() {
@@ -27,13 +20,14 @@ double cpu_seconds() {
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-std::vector<float> left_ear(dSoundSinkID memory) {
+/// What the left ear heard [Pa]; sinks hold it relative to full scale.
+std::vector<float> left_ear(dSoundSinkID memory, double full_scale) {
     const float* first = nullptr;
     int channels = 0;
     const unsigned long frames = dSoundSinkGetSamples(memory, &first, &channels);
     std::vector<float> out(frames);
     for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = first[i * static_cast<std::size_t>(channels)];
+        out[i] = static_cast<float>(full_scale) * first[i * static_cast<std::size_t>(channels)];
     return out;
 }
 
@@ -63,25 +57,30 @@ void add_stage(CLI::App& command, Stage& stage) {
     command.add_option("--sampling", stage.sampling, "How waves are sampled")
         ->check(CLI::IsMember({"sinc", "paper"}))
         ->capture_default_str();
+    command
+        .add_option("--full-scale", stage.full_scale, "Pressure that becomes 1.0 in the file [Pa]")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
 }
 
 Performance perform(scenes::World& world, const Stage& stage, bool quiet) {
     // Sinks outlive the sound world, which plays out into them when it ends.
-    const Sink file(scenes::made(dSoundSinkCreateFile(stage.out.c_str())));
-    const Sink memory(scenes::made(dSoundSinkCreateMemory()));
-    const Sink live(stage.live ? scenes::made(dSoundSinkCreateOpenAL()) : nullptr);
-    Sound sound(scenes::made(dSoundWorldCreate(world.soft())));
-    if (!dSoundSetRadiation(sound.get(), stage.radiation.c_str()) ||
-        !dSoundSetSampling(sound.get(), stage.sampling.c_str()))
+    const SinkHandle file(scenes::made(dSoundSinkCreateFile(stage.out.c_str())));
+    const SinkHandle memory(scenes::made(dSoundSinkCreateMemory()));
+    const SinkHandle live(stage.live ? scenes::made(dSoundSinkCreateOpenAL()) : nullptr);
+    ode::sound::WorldHandle sound(scenes::made(dSoundWorldCreate(world.soft())));
+    if (!dSoundSetRadiation(sound, stage.radiation.c_str()) ||
+        !dSoundSetSampling(sound, stage.sampling.c_str()))
         throw scenes::Refused("no such sound");
     Performance p;
-    dSoundSetRate(sound.get(), p.rate);
-    const dSoundListenerID ears = scenes::made(dSoundListenerCreate(sound.get()));
+    dSoundSetRate(sound, p.rate);
+    dSoundSetFullScale(sound, stage.full_scale);
+    const dSoundListenerID ears = scenes::made(dSoundListenerCreate(sound));
     const dVector3 at = {0, 1, 0};
     const dVector3 up = {0, 0, 1};
     dSoundListenerSetPosition(ears, stage.ear[0], stage.ear[1], stage.ear[2]);
     dSoundListenerSetOrientation(ears, at, up);
-    for (dSoundSinkID sink : {file.get(), memory.get(), live.get()})
+    for (dSoundSinkID sink : {dSoundSinkID(file), dSoundSinkID(memory), dSoundSinkID(live)})
         if (sink && !dSoundListenerAddSink(ears, sink))
             throw scenes::Refused("no sink");
 
@@ -101,12 +100,12 @@ Performance perform(scenes::World& world, const Stage& stage, bool quiet) {
     p.world.struct_size = sizeof p.world;
     dSoftWorldGetStats(world.soft(), &p.world);
     p.sound.struct_size = sizeof p.sound;
-    dSoundGetStats(sound.get(), &p.sound);
+    dSoundGetStats(sound, &p.sound);
     if (live)
-        p.live_kind = dSoundSinkGetKind(live.get());
-    p.left = left_ear(memory.get());
-    sound.reset();
-    complain_of(file.get());
+        p.live_kind = dSoundSinkGetKind(live);
+    sound.reset(); // what still travels arrives
+    p.left = left_ear(memory, stage.full_scale);
+    complain_of(file);
     return p;
 }
 

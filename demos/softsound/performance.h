@@ -4,7 +4,7 @@
 #include "softsound/command.h"
 
 #include <memory>
-#include <ode_sound/sound.h>
+#include <ode_sound/sound.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,10 +21,11 @@ struct Stage {
     bool live = false;       ///< through OpenAL, too
     std::string radiation = "monopole";
     std::string sampling = "sinc";
+    double full_scale = 20;      ///< that becomes 1.0 in the file [Pa]
     dVector3 ear = {0, -1, 1.6}; ///< midpoint of the ears [m]; they look along +y, +z is up
 };
 
-/// Adds --out, --plot, --live, --seconds, --radiation, --sampling.
+/// Adds --out, --plot, --live, --seconds, --radiation, --sampling, --full-scale.
 void add_stage(CLI::App& command, Stage& stage);
 
 /// What a run gives.

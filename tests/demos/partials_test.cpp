@@ -47,6 +47,13 @@ TEST(Partials, ALineBeyondReachIsNotTaken) {
     EXPECT_TRUE(plots::find_partials(ring({1600}), kRate, std::vector<double>{1500}).empty());
 }
 
+TEST(Partials, ALineBelongsToTheNearestPrediction) {
+    const std::vector<double> predicted = {1490, 1499, 1520};
+    const auto found = plots::find_partials(ring({1500}), kRate, predicted);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].predicted, 1499);
+}
+
 TEST(Partials, SilenceHasNone) {
     const std::vector<float> silence(1000, 0.0F);
     EXPECT_TRUE(plots::find_partials(silence, kRate, std::vector<double>{1500}).empty());

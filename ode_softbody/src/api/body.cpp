@@ -2,6 +2,7 @@
 #include "api/handles.h"
 #include "api/solid.h"
 #include "api/versioned.h"
+#include "modal/solve_modes.h"
 
 #include <ode/odemath.h>
 
@@ -202,6 +203,22 @@ int dSoftBodyGetStatus(dSoftBodyID id, dSoftStatus* status) {
     all.max_stretch = body.extremes().max_stretch;
     all.contact_points = static_cast<int>(body.bearing_points());
     return copy_out(__func__, all, status);
+}
+
+int dSoftBodyGetModes(dSoftBodyID id, int count, dReal* frequencies) {
+    require_id(id, __func__);
+    require_id(frequencies, __func__);
+    return guarded(__func__, 0, [&] {
+        const Body& body = from_id(id);
+        ModalOptions options;
+        options.order = body.mesh().order;
+        options.mass = MassKind::kLumped; // as the body moves
+        options.clamped.assign(body.pinned().begin(), body.pinned().end());
+        options.max_modes = static_cast<std::size_t>(std::max(count, 0));
+        const ModalModel modes = solve_modes(body.mesh(), {&body.solid(), 1}, options);
+        std::copy(modes.frequency.begin(), modes.frequency.end(), frequencies);
+        return static_cast<int>(modes.mode_count());
+    });
 }
 
 dGeomID dSoftBodyGetGeom(dSoftBodyID id) {

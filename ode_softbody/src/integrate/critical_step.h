@@ -24,11 +24,11 @@ double critical_step(double frequency, double beta) noexcept;
 /// max(phi/lambda, psi/mu), which is infinite for nu = 0.
 double viscous_time(const Solid& solid) noexcept;
 
-/// critical_step() of a body as it stands, from the
-/// upper end of largest_frequency(). Never above the exact value but for the bracket's probability
-/// of 1e-12, and never below 0.97 of it when beta is exact. For steps in use take 0.9 of it and
-/// estimate again when StrainExtremes::max_stretch has grown: stretch stiffens.
-/// Costs an assembly and about 75 products with the stiffness matrix; allocates.
+/// critical_step() of a body as it stands, from the upper end of largest_frequency(). Never above
+/// the exact value but for the bracket's probability of 1e-12, and never below 0.95 of it when
+/// C = beta K (0.97 when undamped). For steps in use take 0.9 of it and estimate again when
+/// StrainExtremes::max_stretch has grown: stretch stiffens. Costs an assembly and about 75 products
+/// with the stiffness matrix; allocates.
 double critical_step(const ElasticModel& model, std::span<const double> inverse_mass,
                      const NodeArray& position, double beta);
 

@@ -33,7 +33,7 @@ void require_size(double elements, const char* shape) {
 }
 
 TetMesh cut_lattice(const std::array<int, 3>& cells, bool ring) {
-    const auto [nx, ny, nz] = cells;
+    const int nx = cells[0], ny = cells[1], nz = cells[2];
     const int rows = ring ? ny : ny + 1;
     TetMesh mesh;
     mesh.node.assign(static_cast<std::size_t>(nx + 1) * static_cast<std::size_t>(rows) *

@@ -42,14 +42,21 @@ std::size_t count_parts(const TetMesh& mesh) {
 
 } // namespace
 
+double tetrahedron_quality(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3) {
+    const Vec3 a = x1 - x0, b = x2 - x0, c = x3 - x0;
+    const double edges = a.squaredNorm() + b.squaredNorm() + c.squaredNorm() +
+                         (x2 - x1).squaredNorm() + (x3 - x1).squaredNorm() +
+                         (x3 - x2).squaredNorm();
+    const double v = a.cross(b).dot(c) / 6.0;
+    return std::copysign(12.0 * std::cbrt(9.0 * v * v) / edges, v);
+}
+
 double element_quality(const TetMesh& mesh, std::size_t element) {
     const auto n = mesh.nodes_of(element);
-    const auto x = [&](std::size_t i) { return mesh.node[static_cast<std::size_t>(n[i])]; };
-    double edges = 0.0;
-    for (const auto& [i, j] : kTetEdge)
-        edges += (x(static_cast<std::size_t>(i)) - x(static_cast<std::size_t>(j))).squaredNorm();
-    const double v = (x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)) / 6.0;
-    return std::copysign(12.0 * std::cbrt(9.0 * v * v) / edges, v);
+    const auto x = [&](std::size_t i) -> const Vec3& {
+        return mesh.node[static_cast<std::size_t>(n[i])];
+    };
+    return tetrahedron_quality(x(0), x(1), x(2), x(3));
 }
 
 MeshQuality measure_quality(const TetMesh& mesh) {

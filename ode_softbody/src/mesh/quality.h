@@ -26,6 +26,7 @@ MeshQuality measure_quality(const TetMesh& mesh);
 /// Mean ratio 12 (3 |V|)^(2/3) / sum of squared edges of the corner tetrahedron, with the sign of
 /// V: 1 regular, 0 flat, negative inverted (Liu and Joe 1994, doi:10.1007/BF01955874).
 double element_quality(const TetMesh& mesh, std::size_t element);
+double tetrahedron_quality(const Vec3& x0, const Vec3& x1, const Vec3& x2, const Vec3& x3);
 
 /// Below this quality the sign of the volume is noise: corner coordinates carry a relative rounding
 /// error of 1.1e-16, which makes an error of a few 1e-16 L^3 in V and of some 1e-10 in the quality.

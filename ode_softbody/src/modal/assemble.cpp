@@ -33,9 +33,9 @@ Rule make_rule(int geometry_order, int order, int degree) {
 Mat3 jacobian(const TetMesh& mesh, std::size_t e, const Eigen::Matrix3Xd& gradient) {
     const auto n = mesh.nodes_of(e);
     Mat3 j = Mat3::Zero();
-    for (std::size_t i = 0; i < n.size(); ++i)
-        j += mesh.node[static_cast<std::size_t>(n[i])] *
-             gradient.col(static_cast<Eigen::Index>(i)).transpose();
+    for (Eigen::Index i = 0; i < gradient.cols(); ++i)
+        j += mesh.node[static_cast<std::size_t>(n[static_cast<std::size_t>(i)])] *
+             gradient.col(i).transpose();
     return j;
 }
 
@@ -173,11 +173,12 @@ BlockSystem assemble(const TetMesh& mesh, const DofMap& map, std::span<const Sol
     // On straight elements the integrands are polynomials and these degrees exact. On curved ones
     // det J (degree 3) makes the mass integrand of degree 2p + 3; the stiffness is rational, and
     // two degrees more keep its quadrature error far below the discretisation error.
-    const bool curved = mesh.order > 1;
     const int p = map.order;
+    const int geometry = std::min(mesh.order, p);
+    const bool curved = geometry > 1;
     const int n = map.nodes_per_element;
-    const Rule for_stiffness = make_rule(mesh.order, p, 2 * (p - 1) + (curved ? 2 : 0));
-    const Rule for_mass = make_rule(mesh.order, p, 2 * p + (curved && p < 3 ? 2 : 0));
+    const Rule for_stiffness = make_rule(geometry, p, 2 * (p - 1) + (curved ? 2 : 0));
+    const Rule for_mass = make_rule(geometry, p, 2 * p + (curved && p < 3 ? 2 : 0));
     ElementIntegrals element;
     for (std::size_t e = 0; e < map.element_count(); ++e) {
         integrate_stiffness(mesh, e, for_stiffness, n, element);

@@ -27,7 +27,8 @@ struct MassProperties {
 void check_solids(const TetMesh& mesh, std::span<const Solid> solids);
 
 /// Small-strain isotropic elasticity at rest: K = int B^T C B, M = int rho N^T N, with the geometry
-/// of the mesh (linear or quadratic) and the displacement of `map`.
+/// of the mesh (linear or quadratic) and the displacement of `map`. Linear displacement takes the
+/// corners' straight geometry: on a curved one it would not hold rotations.
 /// Same input, same bits: elements are added in order.
 /// @param solids  by the mesh's group index; one for a mesh without groups.
 /// @throws InputError when an element is inverted or flat.

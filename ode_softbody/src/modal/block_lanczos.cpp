@@ -1,5 +1,7 @@
 #include "modal/block_lanczos.h"
 
+#include "modal/tall_product.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
@@ -79,8 +81,8 @@ private:
             w.noalias() -= deflated_ * (deflated_.transpose() * image_).eval();
         if (size_ == 0)
             return;
-        const MatrixXd c = basis_.leftCols(size_).transpose() * image_;
-        w.noalias() -= basis_.leftCols(size_) * c;
+        const MatrixXd c = transpose_times(basis_, size_, image_);
+        subtract_times(basis_, c, w);
         if (h)
             *h += c;
     }

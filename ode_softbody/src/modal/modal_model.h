@@ -32,4 +32,7 @@ struct ModalModel {
     }
 };
 
+/// Brings modes into ascending order of frequency.
+void sort_by_frequency(ModalModel& model);
+
 } // namespace ode::soft

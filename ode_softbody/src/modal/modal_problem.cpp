@@ -116,8 +116,14 @@ void ModalProblem::hold(std::span<const int> mesh_nodes, char axes) {
         held_[i] = static_cast<char>(held_[i] | (flag[i] ? axes : 0));
 }
 
-EigenPairs ModalProblem::solve(Index guards) {
-    factor_ = std::make_unique<BlockFactor>(system_);
+double ModalProblem::factor_flops() {
+    if (!factor_)
+        factor_ = std::make_unique<BlockFactor>(system_);
+    return factor_->factor_flops();
+}
+
+EigenPairs ModalProblem::solve() {
+    factor_flops();
     const double bytes = 1.3 * 8 * factor_->factor_entries() + // fronts in flight: some 30 %
                          96.0 * static_cast<double>(system_.column.size());
     if (bytes > static_cast<double>(options_.memory))
@@ -132,8 +138,6 @@ EigenPairs ModalProblem::solve(Index guards) {
     LanczosOptions lanczos;
     lanczos.upper = eigenvalue_of(options_.max_frequency);
     lanczos.max_pairs = static_cast<Index>(options_.max_modes);
-    if (lanczos.max_pairs > 0)
-        lanczos.max_pairs += guards;
     lanczos.progress = [&](Index count, double share) {
         return tell("modes", share, static_cast<std::size_t>(count)), true;
     };

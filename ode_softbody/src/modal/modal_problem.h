@@ -16,9 +16,12 @@ public:
     /// Checks, numbers and assembles. Mesh, solids and options are borrowed for the object's life.
     ModalProblem(const TetMesh& mesh, std::span<const Solid> solids, const ModalOptions& options);
 
-    /// Factorises, finds all pairs wanted and `guards` more where there are any, and verifies the
-    /// count. Pairs without strain energy are taken out and added to rigid_modes().
-    EigenPairs solve(Eigen::Index guards = 0);
+    /// Multiplications and additions of the factor: what a direct solution would cost.
+    double factor_flops();
+
+    /// Factorises, finds all pairs wanted and verifies their number. Pairs without strain energy
+    /// are taken out and added to rigid_modes().
+    EigenPairs solve();
 
     /// Rayleigh quotients, mass normalisation, sign; shapes on the mesh's own nodes.
     ModalModel model(const EigenPairs& pairs) const;
@@ -28,13 +31,19 @@ public:
     const std::vector<char>& held() const noexcept { return held_; } ///< see free_rigid_motions
     const RowMatrix& rigid_motions() const noexcept { return rigid_; }
     const BlockFactor& factor() const noexcept { return *factor_; } ///< after solve()
+    const TetMesh& mesh() const noexcept { return mesh_; }
+    std::span<const Solid> solids() const noexcept { return solids_; }
     double shift() const noexcept { return shift_; }
     int rigid_modes() const noexcept { return rigid_modes_; }
+
+    void adopt_rigid_modes(const ModalProblem& other) { rigid_modes_ = other.rigid_modes_; }
+
+    /// Reports progress. @throws Cancelled
+    void tell(const char* stage, double share, std::size_t modes = 0) const;
 
 private:
     void hold(std::span<const int> mesh_nodes, char axes);
     bool verify(EigenPairs& pairs, unsigned seed, LanczosOptions lanczos);
-    void tell(const char* stage, double share, std::size_t modes = 0) const;
 
     const TetMesh& mesh_;
     std::span<const Solid> solids_;

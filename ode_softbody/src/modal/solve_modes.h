@@ -22,12 +22,21 @@ struct ModalOptions {
     std::vector<int> clamped;                  ///< mesh nodes held still (see clamped_nodes)
     std::array<std::vector<int>, 3> rollers;   ///< mesh nodes held along x, y, z only
     bool clamp = false;                        ///< a clamp is meant: an empty `clamped` is an error
+    bool estimate = true;                      ///< give ModalModel::error_cents
+    bool rebuilt_curves = false;               ///< the mesh's curved edges were guessed from facets
     bool verify = true;                        ///< count the modes by Sylvester's law of inertia
     std::size_t memory = std::size_t{4} << 30; ///< refuse what would need more [bytes]
     std::function<bool(const ModalProgress&)> progress; ///< false cancels
 };
 
 /// Natural frequencies and shapes of a linear elastic body at rest.
+///
+/// With an estimate, the same mesh is solved one order apart, and the difference d of a partial's
+/// frequencies tells its error (band calibrated in research on 157 partials of ten objects):
+/// order 3 gives f3 - 0.1 d with the band d = f2 - f3; order 2 gives f2 with the band 2 d; order 1
+/// gives f1 with the band 2 (f1 - f2), generous. On rebuilt curves 0.3 of what straight facets
+/// would change is added. The band holds the error of discretisation only: not of the material's
+/// constants, nor of a mesh that isn't the object.
 ///
 /// Free motions are known exactly and kept out, so they never leak into the lowest modes; anything
 /// else without strain energy (two parts that touch along an edge) is counted in rigid_modes.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "model/elastic_model.h"
-#include "model/tet4_kernel.h"
+#include "model/tet_kernel.h"
 
 #include <cmath>
 #include <limits>

@@ -1,24 +1,16 @@
 #pragma once
 
+#include "base/isa.h"
 #include "base/types.h"
+#include "model/law_constants.h"
 #include "model/solid.h"
-#include "model/tet4_kernel.h"
+#include "model/tet_kernel.h"
 
 namespace ode::soft {
 
 /// St. Venant-Kirchhoff (P01 3.1) one point at a time: energy and its second derivative. The force
 /// itself is in stvk_lanes.h. Valid while no principal stretch falls below 1/sqrt(3), where the
 /// law softens in compression.
-
-inline StvkConstants stvk_constants(const Solid& s) noexcept {
-    return {s.lambda() / 2, s.mu(), s.viscous_lambda(), s.viscous_mu()};
-}
-
-/// Elastic energy per rest volume [J/m^3]: lambda/2 tr(E)^2 + mu E:E.
-inline double stvk_energy(const Solid& s, const Mat3& f) noexcept {
-    const Mat3 e = 0.5 * (f.transpose() * f - Mat3::Identity());
-    return 0.5 * s.lambda() * e.trace() * e.trace() + s.mu() * e.squaredNorm();
-}
 
 /// Constants of the tangent at one F, shared by all pairs of shapes.
 class StvkTangent {
@@ -40,6 +32,21 @@ public:
 private:
     double lambda_, mu_;
     Mat3 f_, left_cauchy_green_, stress_;
+};
+
+struct StvkLaw {
+    using Constants = StvkConstants;
+    using Tangent = StvkTangent;
+
+    static Constants constants(const Solid& s) noexcept {
+        return {s.lambda() / 2, s.mu(), {s.viscous_lambda(), s.viscous_mu()}};
+    }
+    /// Elastic energy per rest volume [J/m^3]: lambda/2 tr(E)^2 + mu E:E.
+    static double energy(const Solid& s, const Mat3& f) noexcept {
+        const Mat3 e = 0.5 * (f.transpose() * f - Mat3::Identity());
+        return 0.5 * s.lambda() * e.trace() * e.trace() + s.mu() * e.squaredNorm();
+    }
+    static TetForce<Constants> kernel(Isa isa, TetShape shape, bool viscous) noexcept;
 };
 
 } // namespace ode::soft

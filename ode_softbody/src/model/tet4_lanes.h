@@ -1,27 +1,9 @@
 #pragma once
 
-#include "base/lane.h"
-#include "model/tet4_kernel.h"
+#include "model/matrix_lanes.h"
+#include "model/tet_kernel.h"
 
 namespace ode::soft::ODE_SOFT_ISA {
-
-/// c = a b, all 3x3.
-template <class L>
-[[gnu::always_inline]] inline void multiply(const typename L::Value (&a)[3][3],
-                                            const typename L::Value (&b)[3][3],
-                                            typename L::Value (&c)[3][3]) {
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            c[i][j] = L::fma(a[i][2], b[2][j], L::fma(a[i][1], b[1][j], a[i][0] * b[0][j]));
-}
-
-template <class L>
-[[gnu::always_inline]] inline typename L::Value determinant(const typename L::Value (&f)[3][3]) {
-    const auto c0 = L::fma(-f[1][2], f[2][1], f[1][1] * f[2][2]);
-    const auto c1 = L::fma(-f[1][0], f[2][2], f[1][2] * f[2][0]);
-    const auto c2 = L::fma(-f[1][1], f[2][0], f[1][0] * f[2][1]);
-    return L::fma(f[0][2], c2, L::fma(f[0][1], c1, f[0][0] * c0));
-}
 
 /// Folds lanes into `range`; a poisoned lane makes it not-a-number.
 template <class L>
@@ -60,22 +42,27 @@ template <class L>
 /// prefetch comes too late.
 inline constexpr int kAhead = 4;
 
+template <class Pack>
+[[gnu::always_inline]] inline void prefetch(const Pack* pack) {
+    for (std::size_t line = 0; line < sizeof(Pack); line += 64)
+        __builtin_prefetch(reinterpret_cast<const char*>(pack) + line);
+}
+
 /// Linear tetrahedra under the constitutive law `Law`, which turns F (and Fdot) into the first
 /// Piola-Kirchhoff stress times volume. Forces are -V P Dm^-T on corners 1..3 and minus their sum
 /// on corner 0, added element by element in the order of the list: one order for all lane widths.
 template <class L, class Law, bool kViscous>
-void add_tet4_force(const Tet4Pack* pack, std::size_t count,
-                    const typename Law::Constants& constants, const double* position,
-                    [[maybe_unused]] const double* velocity, double* force,
+void add_tet4_force(const void* packs, std::size_t count, const typename Law::Constants& constants,
+                    const double* position, [[maybe_unused]] const double* velocity, double* force,
                     DeformationRange& range) {
     using Value = typename L::Value;
+    const Tet4Pack* pack = static_cast<const Tet4Pack*>(packs);
     Value least = range.min_determinant + Value{};
     Value most = range.max_trace + Value{};
     Value poison{}; // zero until a number is no longer finite; min and max would forget it
     for (const Tet4Pack* p = pack; p != pack + count; ++p) {
-        for (std::size_t line = 0; line < sizeof(Tet4Pack); line += 64)
-            __builtin_prefetch(reinterpret_cast<const char*>(p + kAhead) + line);
-        for (int first = 0; first < Tet4Pack::kWidth; first += L::kWidth) {
+        prefetch(p + kAhead);
+        for (int first = 0; first < kPackWidth; first += L::kWidth) {
             const unsigned(*node)[4] = p->node + first;
             Value edges[3][3], b[3][3], f[3][3], stress[3][3];
             gather_edges<L>(position, node, edges);
@@ -97,12 +84,11 @@ void add_tet4_force(const Tet4Pack* pack, std::size_t count,
             most = L::max(most, trace);
             poison = L::fma(trace, Value{}, poison);
 
+            Value h[3][3];
+            multiply_transposed<L>(stress, b, h);
             typename L::Points corner[4];
             for (int j = 0; j < 3; ++j) {
-                Value column[3];
-                for (int i = 0; i < 3; ++i)
-                    column[i] = L::fma(stress[i][2], b[j][2],
-                                       L::fma(stress[i][1], b[j][1], stress[i][0] * b[j][0]));
+                const Value column[3] = {h[0][j], h[1][j], h[2][j]};
                 corner[j + 1] = L::to_points(column);
             }
             corner[0] = L::sum(L::sum(corner[1], corner[2]), corner[3]);

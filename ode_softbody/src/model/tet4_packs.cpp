@@ -1,7 +1,6 @@
 #include "model/tet4_packs.h"
 
 #include "base/error.h"
-#include "model/block_matrix.h"
 #include "model/element_order.h"
 
 namespace ode::soft {
@@ -30,72 +29,51 @@ void fill(Tet4Pack& pack, int lane, const TetMesh& mesh, std::size_t e, bool cou
 
 Tet4Packs::Tet4Packs(const TetMesh& mesh, std::span<const Solid> solid) : mass_(mesh.node.size()) {
     if (mesh.order != 1)
-        throw InputError(format("linear tetrahedra were asked of a mesh of order %d", mesh.order));
+        throw InputError(format("linear tetrahedra were asked of a mesh of order %d: give the "
+                                "linear mesh or choose quadratic ones",
+                                mesh.order));
     const auto order = order_elements(mesh, solid.size());
     for (std::size_t s = 0; s < solid.size(); ++s) {
         const auto& list = order[s];
         if (list.empty())
             continue;
-        constexpr std::size_t kWidth = Tet4Pack::kWidth;
-        const Block block{solid[s], pack_.size(), (list.size() + kWidth - 1) / kWidth, list.size()};
+        const TetBlock block{solid[s], TetShape::linear, pack_.size(),
+                             (list.size() + kPackWidth - 1) / kPackWidth, list.size()};
         pack_.resize(pack_.size() + block.packs);
-        for (std::size_t i = 0; i < block.packs * kWidth; ++i) {
+        for (std::size_t i = 0; i < block.packs * kPackWidth; ++i) {
             const bool counts = i < list.size();
-            fill(pack_[block.first + i / kWidth], static_cast<int>(i % kWidth), mesh,
+            fill(pack_[block.first + i / kPackWidth], static_cast<int>(i % kPackWidth), mesh,
                  static_cast<std::size_t>(counts ? list[i] : list.back()), counts);
         }
         block_.push_back(block);
         for (std::size_t e = 0; e < block.elements; ++e) {
-            const Element element = this->element(block, e);
-            for (const int node : element.node)
-                mass_[static_cast<std::size_t>(node)] += block.solid.density * element.volume / 4;
+            const Element el = element(block, e);
+            for (const int node : el.node)
+                mass_[static_cast<std::size_t>(node)] += block.solid.density * el.weight[0] / 4;
         }
     }
 }
 
-Tet4Packs::Element Tet4Packs::element(const Block& block, std::size_t e) const noexcept {
-    const Tet4Pack& p = pack_[block.first + e / Tet4Pack::kWidth];
-    const std::size_t lane = e % Tet4Pack::kWidth;
+Tet4Packs::Element Tet4Packs::element(const TetBlock& block, std::size_t e) const noexcept {
+    const Tet4Pack& p = pack_[block.first + e / kPackWidth];
+    const std::size_t lane = e % kPackWidth;
     Element out;
+    auto& gradient = out.gradient[0];
     for (int i = 0; i < 9; ++i)
-        out.gradient(1 + i / 3, i % 3) = p.b[i][lane];
-    out.gradient.row(0) = -out.gradient.bottomRows<3>().colwise().sum();
+        gradient(1 + i / 3, i % 3) = p.b[i][lane];
+    gradient.row(0) = -gradient.bottomRows<3>().colwise().sum();
     for (int i = 0; i < 4; ++i)
         out.node[i] = static_cast<int>(p.node[lane][i]) / NodeArray::kStride;
-    out.volume = p.volume[lane];
+    out.weight[0] = p.volume[lane];
     return out;
 }
 
-std::vector<int> Tet4Packs::connectivity() const {
-    std::vector<int> out;
-    for (const Block& block : block_)
-        for (std::size_t e = 0; e < block.elements; ++e) {
-            const Element el = element(block, e);
-            out.insert(out.end(), std::begin(el.node), std::end(el.node));
-        }
-    return out;
+Eigen::Vector4d Tet4Packs::lumped_volume(const Element& element) const noexcept {
+    return Eigen::Vector4d::Constant(element.weight[0] / 4);
 }
 
-Eigen::SparseMatrix<double> Tet4Packs::consistent_mass() const {
-    BlockMatrix m(connectivity(), 4, node_count());
-    for (const Block& block : block_)
-        for (std::size_t e = 0; e < block.elements; ++e) {
-            const Element el = element(block, e);
-            const double share = block.solid.density * el.volume / 20;
-            for (int a = 0; a < 4; ++a)
-                for (int b = 0; b < 4; ++b)
-                    m.add(el.node[a], el.node[b], (a == b ? 2 : 1) * share * Mat3::Identity());
-        }
-    return m.take();
-}
-
-Mat3 deformation_gradient(const Tet4Packs::Element& element, const NodeArray& position) noexcept {
-    Mat3 f = Mat3::Zero();
-    for (int a = 1; a < 4; ++a) // differences first: see StvkLinear on rounding
-        f += (position[static_cast<std::size_t>(element.node[a])] -
-              position[static_cast<std::size_t>(element.node[0])]) *
-             element.gradient.row(a);
-    return f;
+Eigen::Matrix4d Tet4Packs::shape_products(const Element& element) const noexcept {
+    return element.weight[0] / 20 * (Eigen::Matrix4d::Ones() + Eigen::Matrix4d::Identity());
 }
 
 } // namespace ode::soft

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "mesh/tet_mesh.h"
-#include "model/solid.h"
-#include "model/tet4_kernel.h"
+#include "model/tet_element.h"
 
 #include <Eigen/SparseCore>
 
@@ -15,20 +14,7 @@ namespace ode::soft {
 /// numbers.
 class Tet4Packs {
 public:
-    /// Elements of one solid.
-    struct Block {
-        Solid solid;
-        std::size_t first; ///< pack
-        std::size_t packs;
-        std::size_t elements; ///< without the filling of the last pack
-    };
-
-    /// One element, unpacked.
-    struct Element {
-        int node[4];
-        Eigen::Matrix<double, 4, 3> gradient; ///< of the four shapes [1/m]
-        double volume;                        ///< [m^3]
-    };
+    using Element = TetElement<4, 1>;
 
     /// @param mesh   of order 1, passed by check_mesh().
     /// @param solid  one a group of the mesh; one in all if it has no groups.
@@ -36,26 +22,22 @@ public:
     Tet4Packs(const TetMesh& mesh, std::span<const Solid> solid);
 
     std::size_t node_count() const noexcept { return mass_.size(); }
-    std::span<const Block> blocks() const noexcept { return block_; }
-    const Tet4Pack* pack(const Block& block) const noexcept { return pack_.data() + block.first; }
-    Element element(const Block& block, std::size_t e) const noexcept;
+    std::span<const TetBlock> blocks() const noexcept { return block_; }
+    const void* pack(const TetBlock& block) const noexcept { return pack_.data() + block.first; }
+    Element element(const TetBlock& block, std::size_t e) const noexcept;
 
-    /// Lumped: rho V0 / 4 a corner [kg].
+    /// Volume whose mass each node of an element carries [m^3]: V0 / 4.
+    Eigen::Vector4d lumped_volume(const Element& element) const noexcept;
+    /// Integrals of products of two shapes [m^3]: V0 / 20, twice that for one with itself.
+    Eigen::Matrix4d shape_products(const Element& element) const noexcept;
+
+    /// Lumped [kg].
     std::span<const double> mass() const noexcept { return mass_; }
 
-    /// rho V0 / 20 between two corners, twice that at each [kg]; 3n x 3n.
-    Eigen::SparseMatrix<double> consistent_mass() const;
-
-    /// Node numbers of all elements, four each, in the order of the packs.
-    std::vector<int> connectivity() const;
-
 private:
-    std::vector<Block> block_;
+    std::vector<TetBlock> block_;
     AlignedVector<Tet4Pack> pack_;
     std::vector<double> mass_;
 };
-
-/// F = sum x_a (x) grad N_a.
-Mat3 deformation_gradient(const Tet4Packs::Element& element, const NodeArray& position) noexcept;
 
 } // namespace ode::soft

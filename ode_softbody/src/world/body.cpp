@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "collide/ray.h"
 #include "integrate/critical_step.h"
+#include "integrate/mass_damping.h"
 #include "mesh/quality.h"
 #include "model/check_solid.h"
 #include "model/stvk_linear.h"
@@ -18,6 +19,11 @@ namespace {
 // Room for what the bound at rest doesn't see: contact stiffness (its share of the largest
 // eigenvalue is limited to 0.15, which shrinks the step by 1/sqrt(1.15) = 0.93) and strain.
 constexpr double kStepSafety = 0.9;
+
+// Mass-proportional damping is applied in portions: of at most this many substeps, so that it costs
+// a few per cent, and of at most this loss, so that no portion is a blow.
+constexpr double kDampingInterval = 16;
+constexpr double kDampingLoss = 1e-3;
 
 } // namespace
 
@@ -156,10 +162,17 @@ void Body::begin_substep(const Vec3& gravity) noexcept {
 }
 
 void Body::advance(double dt) noexcept {
-    const NodeInertia inertia{inverse_mass_, solid_.alpha};
+    const NodeInertia inertia{inverse_mass_};
     const StrainExtremes now = integrator_->step(*model_, inertia, dt, state_, force_);
     extremes_.min_jacobian = std::min(extremes_.min_jacobian, now.min_jacobian);
     extremes_.max_stretch = std::max(extremes_.max_stretch, now.max_stretch);
+    if (solid_.alpha == 0)
+        return;
+    undamped_ += dt;
+    if (undamped_ >= std::min(kDampingInterval * dt, kDampingLoss / solid_.alpha)) {
+        damp_deformation(mass(), inverse_mass_, pinned_.size(), solid_.alpha, undamped_, state_);
+        undamped_ = 0;
+    }
 }
 
 void Body::end_step() noexcept {

@@ -111,6 +111,7 @@ private:
     double total_mass_;
     double critical_step_;
     double substep_;
+    double undamped_ = 0; ///< time since mass-proportional damping was last applied [s]
     StrainExtremes extremes_;
     std::size_t bearing_points_ = 0;
     int failures_ = 0; ///< attempts at this step that went unstable

@@ -88,9 +88,12 @@ DSOUND_API int dSoundSetRate(dSoundWorldID world, int rate);
 DSOUND_API dSoundSinkID dSoundSinkCreateNull(void);
 /** Keeps all samples in memory. */
 DSOUND_API dSoundSinkID dSoundSinkCreateMemory(void);
-/** Writes 32-bit float WAV. A path that cannot be written is refused here. */
+/** Streams to a file named by its ending: .wav (32-bit float, RF64 from 4 GiB on) or .flac (24 bit).
+ * A path that cannot be written is refused here. A crash loses the last quarter second at most. */
 DSOUND_API dSoundSinkID dSoundSinkCreateFile(const char* path);
-/** Plays live on OpenAL's default device. No device: a message, and a null sink instead. */
+/** Plays live on OpenAL's default device, in a context of its own, from a thread of its own. A
+ * simulation slower than real time is heard with faded gaps (dSoundStats.underruns). No device: a
+ * message, and a null sink instead. */
 DSOUND_API dSoundSinkID dSoundSinkCreateOpenAL(void);
 /** Plays out and closes. A listener that still has it lets it go. */
 DSOUND_API void dSoundSinkDestroy(dSoundSinkID sink);
@@ -99,6 +102,10 @@ DSOUND_API void dSoundSinkDestroy(dSoundSinkID sink);
 DSOUND_API const char* dSoundSinkGetKind(dSoundSinkID sink);
 /** Interleaved samples of a memory sink; borrowed until the next step. @return frames. */
 DSOUND_API unsigned long dSoundSinkGetSamples(dSoundSinkID sink, const float** first, int* channels);
+/** Frames taken and not yet played: by how much the simulation is ahead of the loudspeaker. A loop
+ * faster than real time waits while this is longer than the delay it accepts; beyond 10 s samples
+ * are lost. 0 for sinks other than OpenAL. */
+DSOUND_API unsigned long dSoundSinkGetBacklog(dSoundSinkID sink);
 /** First failure in words the user can act on; "" while healthy. */
 DSOUND_API const char* dSoundSinkGetError(dSoundSinkID sink);
 

@@ -1,13 +1,14 @@
 // Nanoseconds of one core for the force of one element, and what share that is of the multiply-adds
 // that the same core reaches in a loop that does nothing else (fma_peak.h).
-#include "box_mesh.h"
 #include "counting_lane.h"
 #include "fma_peak.h"
+#include "unit/model/specimens.h"
 
 #include "base/error.h"
 #include "model/stvk_lanes.h"
 #include "model/stvk_linear.h"
-#include "model/tet4_lanes.h"
+#include "model/stvk_quadratic.h"
+#include "model/tet10_lanes.h"
 
 #include <benchmark/benchmark.h>
 
@@ -16,33 +17,38 @@
 namespace ode::soft {
 namespace {
 
-double operations_of_tet4(bool viscous) {
-    TetMesh mesh;
-    mesh.node = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    mesh.element = {0, 1, 2, 3};
-    Solid solid{1, 0.3, 1};
-    const Tet4Packs packs(mesh, std::span(&solid, 1));
-    const NodeArray x(4);
-    NodeArray force(4);
+/// Floating-point operations for one element; a fused multiply-add is two.
+template <class Packs>
+double operations(const TetMesh& mesh, const Solid& solid) {
+    const Packs packs(mesh, std::span(&solid, 1));
+    const TetBlock& block = packs.blocks()[0];
+    const NodeArray x = node_array(mesh.node);
+    NodeArray force(x.size());
     DeformationRange range{};
-    const auto run = viscous ? scalar::add_tet4_force<CountingLane, scalar::Stvk, true>
-                             : scalar::add_tet4_force<CountingLane, scalar::Stvk, false>;
+    const auto run =
+        scalar::choose_kernel<CountingLane, scalar::Stvk>(block.shape, solid.is_viscous());
     Counted::operations = 0;
-    run(packs.pack(packs.blocks()[0]), 1, StvkConstants{}, x.data(), x.data(), force.data(), range);
-    return double(Counted::operations) / Tet4Pack::kWidth;
+    run(packs.pack(block), 1, StvkConstants{}, x.data(), x.data(), force.data(), range);
+    return double(Counted::operations) / kPackWidth;
 }
 
+template <class Packs>
 void run(benchmark::State& state, Isa isa, bool viscous) {
     if (!is_supported(isa)) {
         state.SkipWithError("not supported by this processor");
         return;
     }
     const int n = static_cast<int>(state.range(0));
-    const TetMesh mesh =
+    TetMesh mesh =
         state.range(1) == 1 ? box_mesh({0.3, 0.3, 0.005}, n, n, 1) : box_mesh({1, 1, 1}, n, n, n);
-    Solid steel{200e9, 0.29, 7850};
+    if (std::is_same_v<Packs, Tet10Packs>)
+        mesh = with_mid_nodes(mesh);
+    Solid steel;
+    steel.young = 200e9;
+    steel.poisson = 0.29;
+    steel.density = 7850;
     steel.beta = viscous ? 1e-7 : 0;
-    const StvkLinear model(mesh, steel, isa);
+    const TetModel<StvkLaw, Packs> model(mesh, steel, isa);
     NodeArray x(model.node_count()), v(model.node_count()), force(model.node_count());
     for (std::size_t i = 0; i < model.node_count(); ++i)
         x[i] = 1.001 * mesh.node[i];
@@ -60,7 +66,7 @@ void run(benchmark::State& state, Isa isa, bool viscous) {
         total += seconds;
     }
     const double elements = double(mesh.element_count());
-    const double rate = operations_of_tet4(viscous) * elements / best;
+    const double rate = operations<Packs>(mesh, steel) * elements / best;
     state.counters["ns/element"] = 1e9 * best / elements;
     state.counters["mean_ns"] = 1e9 * total / double(state.iterations()) / elements;
     state.counters["GFLOP/s"] = 1e-9 * rate;
@@ -69,12 +75,13 @@ void run(benchmark::State& state, Isa isa, bool viscous) {
     state.counters["elements"] = elements;
 }
 
-void register_all() {
+template <class Packs>
+void enlist(const char* name) {
     for (const bool viscous : {false, true})
         for (const Isa isa : {Isa::avx512, Isa::avx2, Isa::baseline})
             benchmark::RegisterBenchmark(
-                format("tet4/%s/%s", viscous ? "viscous" : "elastic", isa_name(isa)).c_str(),
-                [=](benchmark::State& s) { run(s, isa, viscous); })
+                format("%s/%s/%s", name, viscous ? "viscous" : "elastic", isa_name(isa)).c_str(),
+                [=](benchmark::State& s) { run<Packs>(s, isa, viscous); })
                 ->Args({14, 1})  // 1176 tetrahedra: the source paper's bowl
                 ->Args({20, 20}) // 48 k
                 ->Args({40, 40}) // 384 k
@@ -86,6 +93,7 @@ void register_all() {
 
 int main(int argc, char** argv) {
     benchmark::Initialize(&argc, argv);
-    ode::soft::register_all();
+    ode::soft::enlist<ode::soft::Tet4Packs>("tet4");
+    ode::soft::enlist<ode::soft::Tet10Packs>("tet10");
     benchmark::RunSpecifiedBenchmarks();
 }

@@ -2,6 +2,8 @@
 
 #include "mesh/tet_mesh.h"
 
+#include <map>
+
 namespace ode::soft {
 
 /// Box from the origin, nx*ny*nz cells of six tetrahedra (Kuhn), nodes in lexicographic order, z
@@ -28,6 +30,29 @@ inline TetMesh box_mesh(const Vec3& size, int nx, int ny, int nz) {
                         std::swap(node[1], node[2]);
                     mesh.element.insert(mesh.element.end(), node, node + 4);
                 }
+    return mesh;
+}
+
+/// The same with a node in the middle of each edge, numbered after the corners.
+inline TetMesh with_mid_nodes(const TetMesh& linear) {
+    TetMesh mesh = linear;
+    mesh.order = 2;
+    mesh.element.clear();
+    std::map<std::pair<int, int>, int> mid;
+    for (std::size_t e = 0; e < linear.element_count(); ++e) {
+        const auto corner = linear.nodes_of(e);
+        mesh.element.insert(mesh.element.end(), corner.begin(), corner.end());
+        for (const auto& edge : kTetEdge) {
+            const int a = corner[static_cast<std::size_t>(edge[0])];
+            const int b = corner[static_cast<std::size_t>(edge[1])];
+            const auto [at, is_new] =
+                mid.try_emplace(std::minmax(a, b), static_cast<int>(mesh.node.size()));
+            if (is_new)
+                mesh.node.push_back(0.5 * (linear.node[static_cast<std::size_t>(a)] +
+                                           linear.node[static_cast<std::size_t>(b)]));
+            mesh.element.push_back(at->second);
+        }
+    }
     return mesh;
 }
 

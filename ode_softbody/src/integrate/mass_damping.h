@@ -1,0 +1,18 @@
+#pragma once
+
+#include "integrate/node_state.h"
+
+namespace ode::soft {
+
+/// Mass-proportional damping of deformation alone: velocities decay by exp(-alpha dt) towards those
+/// of the rigid motion that carries the body's momentum, so that a body in flight neither drags nor
+/// stops spinning (Rayleigh's own alpha M v would brake it like a viscous liquid).
+///
+/// A body held at three nodes or more has no rigid motion: it decays towards rest.
+/// @param held  nodes of inverse mass 0 keep their velocity; how many there are.
+/// @param dt    time since the last call [s]. The decay is slow (alpha is a few per second), so
+///              that a call every few substeps costs nothing and changes nothing.
+void damp_deformation(std::span<const double> mass, std::span<const double> inverse_mass,
+                      std::size_t held, double alpha, double dt, NodeState& state) noexcept;
+
+} // namespace ode::soft

@@ -1,0 +1,110 @@
+#pragma once
+
+#include "model/block_matrix.h"
+#include "model/element_frequency.h"
+#include "model/strain_extremes.h"
+#include "model/tet_model.h"
+
+namespace ode::soft {
+
+template <class Law, class Packs>
+TetModel<Law, Packs>::TetModel(const TetMesh& mesh, std::span<const Solid> solid, Isa isa)
+    : packs_(mesh, solid) {
+    for (const TetBlock& block : packs_.blocks())
+        part_.push_back(
+            {Law::kernel(isa, block.shape, block.solid.is_viscous()), Law::constants(block.solid)});
+}
+
+template <class Law, class Packs>
+StrainExtremes TetModel<Law, Packs>::add_force(const NodeArray& position, const NodeArray& velocity,
+                                               NodeArray& force) const noexcept {
+    DeformationRange range = kNoDeformation;
+    for (std::size_t i = 0; i < part_.size(); ++i) {
+        const TetBlock& block = packs_.blocks()[i];
+        part_[i].add(packs_.pack(block), block.packs, part_[i].constants, position.data(),
+                     velocity.data(), force.data(), range);
+    }
+    return strain_extremes(range);
+}
+
+template <class Law, class Packs>
+double TetModel<Law, Packs>::energy(const NodeArray& position) const noexcept {
+    double sum = 0;
+    for (const TetBlock& block : packs_.blocks())
+        for (std::size_t e = 0; e < block.elements; ++e) {
+            const auto element = packs_.element(block, e);
+            for (int q = 0; q < element.kPoints; ++q)
+                sum += element.weight[q] *
+                       Law::energy(block.solid, deformation_gradient(element, q, position));
+        }
+    return sum;
+}
+
+template <class Law, class Packs>
+std::vector<int> TetModel<Law, Packs>::connectivity() const {
+    std::vector<int> out;
+    for (const TetBlock& block : packs_.blocks())
+        for (std::size_t e = 0; e < block.elements; ++e) {
+            const auto element = packs_.element(block, e);
+            out.insert(out.end(), std::begin(element.node), std::end(element.node));
+        }
+    return out;
+}
+
+template <class Law, class Packs>
+Eigen::SparseMatrix<double> TetModel<Law, Packs>::stiffness(const NodeArray& position) const {
+    BlockMatrix k(connectivity(), Packs::Element::kNodes, node_count());
+    for (const TetBlock& block : packs_.blocks())
+        for (std::size_t e = 0; e < block.elements; ++e) {
+            const auto element = packs_.element(block, e);
+            for (int q = 0; q < element.kPoints; ++q) {
+                const typename Law::Tangent tangent(block.solid,
+                                                    deformation_gradient(element, q, position));
+                const auto& g = element.gradient[q];
+                for (int a = 0; a < element.kNodes; ++a)
+                    for (int b = 0; b < element.kNodes; ++b)
+                        k.add(element.node[a], element.node[b],
+                              element.weight[q] * tangent.block(g.row(a), g.row(b)));
+            }
+        }
+    return k.take();
+}
+
+template <class Law, class Packs>
+Eigen::SparseMatrix<double> TetModel<Law, Packs>::consistent_mass() const {
+    BlockMatrix m(connectivity(), Packs::Element::kNodes, node_count());
+    for (const TetBlock& block : packs_.blocks())
+        for (std::size_t e = 0; e < block.elements; ++e) {
+            const auto element = packs_.element(block, e);
+            const auto products = packs_.shape_products(element);
+            for (int a = 0; a < element.kNodes; ++a)
+                for (int b = 0; b < element.kNodes; ++b)
+                    m.add(element.node[a], element.node[b],
+                          block.solid.density * products(a, b) * Mat3::Identity());
+        }
+    return m.take();
+}
+
+template <class Law, class Packs>
+double TetModel<Law, Packs>::max_frequency_bound() const {
+    constexpr int kSize = 3 * Packs::Element::kNodes;
+    ElementFrequency bound;
+    for (const TetBlock& block : packs_.blocks()) {
+        const typename Law::Tangent tangent(block.solid, Mat3::Identity());
+        for (std::size_t e = 0; e < block.elements; ++e) {
+            const auto element = packs_.element(block, e);
+            const auto share = packs_.lumped_volume(element);
+            Eigen::Matrix<double, kSize, kSize> k = Eigen::Matrix<double, kSize, kSize>::Zero();
+            for (int q = 0; q < element.kPoints; ++q)
+                for (int a = 0; a < element.kNodes; ++a)
+                    for (int b = 0; b < element.kNodes; ++b)
+                        k.template block<3, 3>(3 * a, 3 * b) +=
+                            element.weight[q] / std::sqrt(share[a] * share[b]) *
+                            tangent.block(element.gradient[q].row(a), element.gradient[q].row(b));
+            bound.include<kSize>(k / block.solid.density);
+        }
+    }
+    return bound.value();
+}
+
+} // namespace ode::soft

@@ -1,0 +1,98 @@
+#include "api/guard.h"
+#include "api/ids.h"
+#include "sink/file_sink.h"
+#include "sink/memory_sink.h"
+#include "sink/null_sink.h"
+#include "sink/openal_sink.h"
+
+#include <memory>
+
+/// A listener borrows the sink; dSoundSinkDestroy() takes it from the listener first.
+struct dxSoundSink {
+    std::unique_ptr<ode::sound::Sink> sink;
+};
+
+namespace ode::sound {
+
+Sink& sink_of(dSoundSinkID sink) noexcept { return *sink->sink; }
+
+} // namespace ode::sound
+
+using namespace ode::sound;
+
+namespace {
+
+/// A new id around what `make` returns.
+template <class Make>
+dSoundSinkID create(const char* function, Make&& make) noexcept {
+    return guarded(function, dSoundSinkID{}, [&] { return new dxSoundSink{make()}; });
+}
+
+} // namespace
+
+dSoundSinkID dSoundSinkCreateNull(void) {
+    return create(__func__, [] { return std::make_unique<NullSink>(); });
+}
+
+dSoundSinkID dSoundSinkCreateMemory(void) {
+    return create(__func__, [] { return std::make_unique<MemorySink>(); });
+}
+
+dSoundSinkID dSoundSinkCreateFile(const char* path) {
+    require_id(path, __func__);
+    return create(__func__, [path] { return std::make_unique<FileSink>(path); });
+}
+
+dSoundSinkID dSoundSinkCreateOpenAL(void) {
+    const char* const function = __func__;
+    return create(function, [function]() -> std::unique_ptr<Sink> {
+        try {
+            return std::make_unique<OpenAlSink>(
+                OpenAlDevice::open_default(),
+                [](const char* sentence) { dMessage(0, "%s", sentence); });
+        } catch (const Refused& e) {
+            dMessage(0, "%s: %s (a null sink takes its place)", function, e.what());
+            return std::make_unique<NullSink>();
+        }
+    });
+}
+
+void dSoundSinkDestroy(dSoundSinkID sink) {
+    if (!sink)
+        return;
+    let_go(*sink->sink);
+    sink->sink->close();
+    delete sink;
+}
+
+const char* dSoundSinkGetKind(dSoundSinkID sink) {
+    require_id(sink, __func__);
+    return sink->sink->kind();
+}
+
+unsigned long dSoundSinkGetSamples(dSoundSinkID sink, const float** first, int* channels) {
+    require_id(sink, __func__);
+    require_id(first, __func__);
+    require_id(channels, __func__);
+    const auto* memory = dynamic_cast<const MemorySink*>(sink->sink.get());
+    if (!memory) {
+        dMessage(0, "%s: a %s sink keeps no samples; use dSoundSinkCreateMemory()", __func__,
+                 sink->sink->kind());
+        *first = nullptr;
+        *channels = 0;
+        return 0;
+    }
+    *first = memory->samples().data();
+    *channels = memory->format().channels;
+    return memory->samples().size() / static_cast<unsigned long>(*channels);
+}
+
+const char* dSoundSinkGetError(dSoundSinkID sink) {
+    require_id(sink, __func__);
+    return sink->sink->error();
+}
+
+unsigned long dSoundSinkGetBacklog(dSoundSinkID sink) {
+    require_id(sink, __func__);
+    return sink->sink->backlog();
+}

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "mix/cpu_clock.h"
+#include "mix/scene.h"
+
+#include <ode_softbody/softbody.h>
+
+#include <vector>
+
+namespace ode::sound {
+
+/// Carries a soft world's substeps to a scene. Registered as an observer while somebody listens,
+/// and only then. Either world may end first.
+class SoundWorld {
+public:
+    explicit SoundWorld(dSoftWorldID world);
+    ~SoundWorld();
+    SoundWorld(const SoundWorld&) = delete;
+    SoundWorld& operator=(const SoundWorld&) = delete;
+
+    Scene& scene() noexcept { return scene_; }
+    const Scene& scene() const noexcept { return scene_; }
+
+    Listener& add_listener();
+    void remove_listener(Listener& listener) noexcept;
+
+    /// Spent on sound [s]; substeps are sampled.
+    double seconds() const noexcept { return cost_.seconds(); }
+
+    // What the soft world tells; public for tests, which have none.
+    void on_substep(const dSoftSubstep& substep) noexcept;
+    void on_step(double time) noexcept;
+    void on_body_end(dSoftBodyID body) noexcept;
+    void on_world_end() noexcept;
+
+private:
+    void observe();
+    void ignore() noexcept;
+
+    dSoftWorldID world_; ///< null once it has ended
+    bool observing_ = false;
+    bool failed_ = false; ///< out of memory, and told so
+    Scene scene_;
+    SampledCost cost_;
+    std::vector<double> padded_; ///< positions, then velocities, where the stride is three
+};
+
+} // namespace ode::sound

@@ -1,0 +1,259 @@
+// Included by one translation unit for each instruction set, with ODE_SOUND_ISA_NAMESPACE naming
+// it, so that the linker never hands AVX code to a machine without it. No standard container here.
+#include "dsp/kernels.h"
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+namespace ode::sound::ODE_SOUND_ISA_NAMESPACE {
+namespace {
+
+using Lane [[gnu::vector_size(32)]] = double;
+using Loose [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
+using Bits [[gnu::vector_size(32)]] = std::int64_t;
+using Ints [[gnu::vector_size(16)]] = std::int32_t;
+
+constexpr int kTaps = 16;
+constexpr int kBefore = 7;
+constexpr int kPhases = 128;
+
+inline Lane load(const double* p) { return *reinterpret_cast<const Loose*>(p); }
+inline void store(double* p, const Lane& v) { *reinterpret_cast<Loose*>(p) = v; }
+inline Lane fill(double v) { return Lane{v, v, v, v}; }
+
+inline Lane root(const Lane& v) {
+#if defined(__AVX2__)
+    return _mm256_sqrt_pd(v);
+#else
+    return Lane{__builtin_sqrt(v[0]), __builtin_sqrt(v[1]), __builtin_sqrt(v[2]),
+                __builtin_sqrt(v[3])};
+#endif
+}
+
+/// x + y + z of four points, one a lane; w does not count, whatever it holds.
+inline Lane sums(const Lane& a, const Lane& b, const Lane& c, const Lane& d) {
+    const Lane ab_x = __builtin_shuffle(a, b, Bits{0, 4, 2, 6}); // ax bx az bz
+    const Lane ab_y = __builtin_shuffle(a, b, Bits{1, 5, 3, 7}); // ay by aw bw
+    const Lane cd_x = __builtin_shuffle(c, d, Bits{0, 4, 2, 6});
+    const Lane cd_y = __builtin_shuffle(c, d, Bits{1, 5, 3, 7});
+    const Lane x = __builtin_shuffle(ab_x, cd_x, Bits{0, 1, 4, 5});
+    const Lane z = __builtin_shuffle(ab_x, cd_x, Bits{2, 3, 6, 7});
+    const Lane y = __builtin_shuffle(ab_y, cd_y, Bits{0, 1, 4, 5});
+    return x + y + z;
+}
+
+inline Lane without_w(const Lane& v) {
+    return reinterpret_cast<Lane>(reinterpret_cast<Bits>(v) & Bits{-1, -1, -1, 0});
+}
+
+inline Lane cross(const Lane& a, const Lane& b) {
+    constexpr Bits kYzx{1, 2, 0, 3};
+    return __builtin_shuffle(a * __builtin_shuffle(b, kYzx) - __builtin_shuffle(a, kYzx) * b, kYzx);
+}
+
+double dot(const double* a, const double* b, int n) {
+    Lane even{};
+    Lane odd{};
+    int i = 0;
+    for (; i + 8 <= n; i += 8) {
+        even += load(a + i) * load(b + i);
+        odd += load(a + i + 4) * load(b + i + 4);
+    }
+    if (i < n)
+        even += load(a + i) * load(b + i);
+    const Lane sum = even + odd;
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
+void gather(int nodes, const int* node, const double* position, int stride, const double* area,
+            double* last, double* volume) {
+    for (int i = 0; i < nodes; i += 4) {
+        Lane swept[4];
+        for (int k = 0; k < 4; ++k) {
+            const Lane now = load(position + static_cast<std::int64_t>(node[i + k]) * stride);
+            swept[k] = (now - load(last + 4 * (i + k))) * load(area + 4 * (i + k));
+            store(last + 4 * (i + k), without_w(now));
+        }
+        store(volume + i, sums(swept[0], swept[1], swept[2], swept[3]));
+    }
+}
+
+void between(int nodes, const int* node, const double* position, int stride, const double* last,
+             double fraction, double* place) {
+    const Lane f = fill(fraction);
+    for (int i = 0; i < nodes; ++i) {
+        const Lane from = load(last + 4 * i);
+        const Lane now = load(position + static_cast<std::int64_t>(node[i]) * stride);
+        store(place + 4 * i, without_w(from + f * (now - from)));
+    }
+}
+
+void areas(int triangles, const int* triangle, const double* point, double* area) {
+    const Lane sixth = fill(1.0 / 6.0);
+    for (int t = 0; t < triangles; ++t) {
+        const std::int64_t i = 4 * static_cast<std::int64_t>(triangle[3 * t]);
+        const std::int64_t j = 4 * static_cast<std::int64_t>(triangle[3 * t + 1]);
+        const std::int64_t k = 4 * static_cast<std::int64_t>(triangle[3 * t + 2]);
+        const Lane origin = load(point + i);
+        const Lane third =
+            without_w(sixth * cross(load(point + j) - origin, load(point + k) - origin));
+        store(area + i, load(area + i) + third);
+        store(area + j, load(area + j) + third);
+        store(area + k, load(area + k) + third);
+    }
+}
+
+void mix(int nodes, int rows, const double* const* row, const double* weight, double* const* flow) {
+    int i = 0;
+    for (; i + 8 <= nodes; i += 8) {
+        Lane a[4] = {};
+        Lane b[4] = {};
+        for (int r = 0; r < rows; ++r) {
+            const Lane va = load(row[r] + i);
+            const Lane vb = load(row[r] + i + 4);
+            for (int j = 0; j < 4; ++j) {
+                const Lane w = fill(weight[4 * r + j]);
+                a[j] += w * va;
+                b[j] += w * vb;
+            }
+        }
+        for (int j = 0; j < 4; ++j) {
+            store(flow[j] + i, a[j]);
+            store(flow[j] + i + 4, b[j]);
+        }
+    }
+    for (; i < nodes; i += 4) {
+        Lane a[4] = {};
+        for (int r = 0; r < rows; ++r)
+            for (int j = 0; j < 4; ++j)
+                a[j] += fill(weight[4 * r + j]) * load(row[r] + i);
+        for (int j = 0; j < 4; ++j)
+            store(flow[j] + i, a[j]);
+    }
+}
+
+/// Retarded times and weighted values of four nodes at one ear.
+struct Arrivals {
+    std::int32_t whole[4]; ///< delay rounded down [samples]
+    std::int32_t phase[4]; ///< row of the splat table
+    double rest[4];        ///< fraction of the way to the next row
+    double value[4];
+};
+
+template <Facing kFacing>
+inline Lane facing(const Lane& projection, const Lane& area, const Lane& distance) {
+    const Lane zero{};
+    // Area zero (a padding node, a vanished triangle): projection is zero too; avoid 0 / 0.
+    const Lane cosine = projection / (area * distance + fill(1e-300));
+    if constexpr (kFacing == Facing::kCosine) {
+        return cosine > zero ? cosine : zero;
+    } else {
+        constexpr double kRamp = 0.05;
+        const Lane one = fill(1.0);
+        Lane seen = fill(0.5) + cosine * fill(0.5 / kRamp);
+        seen = seen > zero ? seen : zero;
+        return seen < one ? seen : one;
+    }
+}
+
+template <Facing kFacing>
+inline void arrive(const SplatSurface& surface, const SplatEar& ear, int i, Lane& latest,
+                   Arrivals& out) {
+    const Lane centre = load(ear.position);
+    const Lane mach = load(ear.mach);
+    Lane offset[4];
+    for (int k = 0; k < 4; ++k)
+        offset[k] = centre - load(surface.position + 4 * (i + k));
+    const Lane square = sums(offset[0] * offset[0], offset[1] * offset[1], offset[2] * offset[2],
+                             offset[3] * offset[3]) +
+                        load(surface.softening + i);
+    const Lane ahead = sums(offset[0] * mach, offset[1] * mach, offset[2] * mach, offset[3] * mach);
+    // Wave from x at time 0 meets an ear that starts at x + offset and moves with u = mach c:
+    // |offset + u T| = c T. distance = c T.
+    const double rest = 1.0 - (mach[0] * mach[0] + mach[1] * mach[1] + mach[2] * mach[2]);
+    const Lane distance = (ahead + root(ahead * ahead + fill(rest) * square)) / fill(rest);
+
+    Lane value = fill(ear.gain) * load(surface.flow + i) / distance;
+    if constexpr (kFacing != Facing::kAll) {
+        Lane area[4];
+        for (int k = 0; k < 4; ++k)
+            area[k] = load(surface.area + 4 * (i + k));
+        value *= facing<kFacing>(
+            sums(area[0] * offset[0], area[1] * offset[1], area[2] * offset[2],
+                 area[3] * offset[3]),
+            root(sums(area[0] * area[0], area[1] * area[1], area[2] * area[2], area[3] * area[3])),
+            distance);
+    }
+
+    // Comparisons with NaN are false: a body that has gone to pieces is silent, not contagious.
+    const Lane least = fill(ear.min_delay);
+    const Lane most = fill(ear.max_delay);
+    constexpr double kSane = 1e20; // [m^2/s]
+    const Lane delay = distance * fill(surface.samples_per_metre);
+    const Bits sane =
+        (delay >= least) & (delay <= most) & (value < fill(kSane)) & (value > fill(-kSane));
+    const Lane when = sane ? delay : least;
+    value = sane ? value : Lane{};
+    latest = sane & (when > latest) ? when : latest;
+
+    const Ints whole = __builtin_convertvector(when, Ints);
+    const Lane place = (when - __builtin_convertvector(whole, Lane)) * fill(kPhases);
+    const Ints phase = __builtin_convertvector(place, Ints);
+    store(out.rest, place - __builtin_convertvector(phase, Lane));
+    store(out.value, value);
+    for (int k = 0; k < 4; ++k) {
+        out.whole[k] = whole[k];
+        out.phase[k] = phase[k];
+    }
+}
+
+template <Facing kFacing>
+double splat(const SplatSurface& surface, const SplatEar* ear, int ears) {
+    constexpr int kMaxEars = 2;
+    Lane latest{};
+    for (int i = 0; i < surface.nodes; i += 4) {
+        Arrivals arrival[kMaxEars];
+        for (int e = 0; e < ears; ++e)
+            arrive<kFacing>(surface, ear[e], i, latest, arrival[e]);
+        for (int k = 0; k < 4; ++k) {
+            for (int e = 0; e < ears; ++e) {
+                const Arrivals& a = arrival[e];
+                double* cell =
+                    ear[e].ring[k & 1] + ((ear[e].sample + a.whole[k] - kBefore) & ear[e].mask);
+                const double* row = surface.table + static_cast<std::int64_t>(a.phase[k]) * kTaps;
+                // Lagrange's cubic through the rows at -1, 0, 1, 2.
+                const double u = a.rest[k];
+                const double v = a.value[k];
+                const double outer = v * u * (1.0 - u) * (1.0 / 6.0);
+                const double inner = v * 0.5 * (1.0 + u) * (2.0 - u);
+                const Lane w0 = fill(outer * (u - 2.0));
+                const Lane w1 = fill(inner * (1.0 - u));
+                const Lane w2 = fill(inner * u);
+                const Lane w3 = fill(-outer * (1.0 + u));
+                for (int j = 0; j < kTaps; j += 4)
+                    store(cell + j,
+                          load(cell + j) + (w0 * load(row - kTaps + j) + w1 * load(row + j)) +
+                              (w2 * load(row + kTaps + j) + w3 * load(row + 2 * kTaps + j)));
+            }
+        }
+    }
+    double last = 0.0;
+    for (int k = 0; k < 4; ++k)
+        last = latest[k] > last ? latest[k] : last;
+    return last;
+}
+
+} // namespace
+
+extern const Kernels kKernels;
+const Kernels kKernels = {
+    ODE_SOUND_ISA_NAME,
+    &dot,
+    &gather,
+    &between,
+    &areas,
+    &mix,
+    {&splat<Facing::kAll>, &splat<Facing::kVisible>, &splat<Facing::kCosine>}};
+
+} // namespace ode::sound::ODE_SOUND_ISA_NAMESPACE

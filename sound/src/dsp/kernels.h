@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+
+namespace ode::sound {
+
+// The inner loops of the sound path, compiled once for each instruction set and chosen at run time.
+// Points are stored x y z w, four doubles each; w is ignored where read and 0 where written. Node
+// counts are multiples of four: the last node is repeated with area zero.
+
+/// How loud a node of a surface is in a direction.
+enum class Facing {
+    kAll,     ///< the same all round
+    kVisible, ///< 1 where its normal looks at the ear, 0 where away, a ramp of cos = +-0.05 between
+    kCosine   ///< cosine of the angle between normal and ear where positive, else 0
+};
+
+/// One ear, as one sample of one surface is sent to it.
+struct SplatEar {
+    static constexpr int kCopies = 2;
+    double position[4];    ///< [m]
+    double mach[4];        ///< its velocity over the speed of sound, length < 1
+    double* ring[kCopies]; ///< accumulators, added together by the reader; neighbouring nodes
+                           ///< alternate, so that their read-modify-writes do not wait
+    std::int64_t mask;     ///< ring length - 1, a power of two; kTaps more cells lie behind
+    std::int64_t sample;   ///< index in the ring's time of the sample sent
+    double gain;           ///< of this sample at this ear
+    double min_delay;      ///< delays below this or above max_delay are dropped [samples]
+    double max_delay;
+};
+
+struct SplatSurface {
+    int nodes;
+    const double* position;   ///< points [m]
+    const double* area;       ///< area vectors, points [m^2]; unused for Facing::kAll
+    const double* softening;  ///< square of the least distance of each node [m^2]
+    const double* flow;       ///< volume per time of each node [m^3/s]
+    double samples_per_metre; ///< ring rate / speed of sound
+    const double* table;      ///< SplatTable::rows()
+};
+
+struct Kernels {
+    const char* name;
+
+    /// sum of a[i] b[i]; n a multiple of four.
+    double (*dot)(const double* a, const double* b, int n);
+
+    /// volume[i] = area[i] . (position[node[i]] - last[i]), then last[i] = position[node[i]].
+    void (*gather)(int nodes, const int* node, const double* position, int stride,
+                   const double* area, double* last, double* volume);
+
+    /// place[i] = last[i] + fraction (position[node[i]] - last[i]).
+    void (*between)(int nodes, const int* node, const double* position, int stride,
+                    const double* last, double fraction, double* place);
+
+    /// area[i] += (x1 - x0) x (x2 - x0) / 6 for the three nodes i of each triangle.
+    void (*areas)(int triangles, const int* triangle, const double* point, double* area);
+
+    /// flow[j][i] = sum over rows r of weight[4 r + j] row[r][i], for j = 0..3.
+    void (*mix)(int nodes, int rows, const double* const* row, const double* weight,
+                double* const* flow);
+
+    /// Adds flow / distance of every node to the rings of the ears at the retarded time.
+    /// @return largest delay that was not dropped [samples]; 0 if all were.
+    double (*splat[3])(const SplatSurface& surface, const SplatEar* ear, int ears);
+};
+
+/// The widest set that this processor runs. ODE_SOUND_ISA=baseline in the environment forces the
+/// portable one. Sets differ in rounding; one set gives the same bits every time.
+const Kernels& kernels() noexcept;
+
+/// All sets that this processor runs, the portable one first; null-terminated.
+const Kernels* const* all_kernels() noexcept;
+
+} // namespace ode::sound

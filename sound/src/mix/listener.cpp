@@ -1,0 +1,174 @@
+#include "mix/listener.h"
+
+#include "dsp/splat_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ode::sound {
+
+Listener::Listener(const Settings& settings, std::int64_t frame)
+    : settings_(&settings), next_(frame) {
+    restart();
+}
+
+void Listener::restart() {
+    const Settings& s = *settings_;
+    const double gain = radiation_gain(s.radiation, s.air);
+    const bool differentiate = radiation_differentiates(s.radiation);
+    for (Ear& ear : ear_) {
+        ear.path.reset(); // its grid may be another
+        ear.wave.reset();
+        ear.paper.reset();
+        if (s.sampling == Sampling::kSinc) {
+            const Decimator decimator(
+                s.rate, differentiate ? Decimator::Kind::kDerivative : Decimator::Kind::kSmooth,
+                gain);
+            ear.wave = std::make_unique<EarLine>(s.rate, next_, decimator,
+                                                 differentiate ? std::nullopt
+                                                               : std::optional<DcBlock>(DcBlock{}));
+        } else {
+            // Facets carry z v_n already, for all radiation models.
+            ear.paper = std::make_unique<PaperLine>(
+                s.rate, next_, gain / (s.air.density * s.air.speed), differentiate);
+        }
+    }
+}
+
+void Listener::begin_step(double time, double duration) {
+    const double rate = settings_->send_rate();
+    const std::array<Vec3, kEars> target = pose.ears();
+    for (std::size_t e = 0; e < kEars; ++e) {
+        if (!ear_[e].path)
+            ear_[e].path = std::make_unique<EarPath>(rate, target[e]);
+        else
+            ear_[e].path->move_to(target[e], static_cast<std::int64_t>(std::floor(time * rate)),
+                                  static_cast<int>(std::lround(duration * rate)));
+    }
+}
+
+void Listener::splat(const FlowBlock& block, bool ghost) noexcept {
+    SplatEar target[kEars];
+    int count = 0;
+    EarLine* line[kEars];
+    for (Ear& ear : ear_) {
+        const EarPath::State& state = ear.path->at(block.sample);
+        const double share = ghost ? state.ghost_share : 1.0 - state.ghost_share;
+        if (share == 0.0)
+            continue;
+        SplatEar& to = target[count];
+        to = ear.wave->target(block.sample);
+        line[count++] = ear.wave.get();
+        to.gain = block.gain * share;
+        const Vec3& place = ghost ? state.ghost : state.position;
+        Vec3 mach = Vec3::Zero();
+        if (!ghost) {
+            mach = state.velocity / settings_->air.speed;
+            constexpr double kFastest = 0.9; // of the speed of sound, for the aim alone
+            if (mach.norm() > kFastest)
+                mach *= kFastest / mach.norm();
+        }
+        for (int k = 0; k < 3; ++k) {
+            to.position[k] = place[k];
+            to.mach[k] = mach[k];
+        }
+    }
+    if (count == 0)
+        return;
+    const SplatSurface surface{block.nodes,         block.position,
+                               block.area,          block.softening,
+                               block.flow,          settings_->send_rate() / settings_->air.speed,
+                               splat_table().rows()};
+    const auto facing = static_cast<std::size_t>(radiation_facing(settings_->radiation));
+    const double delay = kernels().splat[facing](surface, target, count);
+    for (int e = 0; e < count; ++e)
+        line[e]->note_arrival(static_cast<double>(block.sample) + delay);
+}
+
+void Listener::send(const FlowBlock& block) noexcept {
+    if (!ear_[0].path || !ear_[0].wave || block.gain == 0.0)
+        return;
+    splat(block, false);
+    for (Ear& ear : ear_)
+        if (ear.path->at(block.sample).ghost_share > 0.0) {
+            splat(block, true);
+            break;
+        }
+}
+
+void Listener::send(const FacetBlock& block) noexcept {
+    if (!ear_[0].path || !ear_[0].paper)
+        return;
+    const Facing facing = radiation_facing(settings_->radiation);
+    const double per_metre = settings_->rate / settings_->air.speed;
+    for (Ear& ear : ear_) {
+        const Vec3 r = ear.path->at(block.sample).position;
+        for (int t = 0; t < block.facets; ++t) {
+            const double* f = block.facet + static_cast<std::ptrdiff_t>(t) * FacetBlock::kFields;
+            const Vec3 way = r - Vec3(f[2], f[3], f[4]);
+            const double distance = std::max(way.norm(), 1e-6);
+            const double cosine = way.dot(Vec3(f[5], f[6], f[7])) / distance;
+            if (facing != Facing::kAll && cosine <= 0.0)
+                continue;
+            double s = f[0] * f[1] / distance; // P01 eq. 10
+            if (facing == Facing::kCosine)
+                s *= cosine;
+            ear.paper->add(block.sample, distance * per_metre, s); // P01 eq. 11
+        }
+    }
+}
+
+void Listener::render(std::int64_t frame) noexcept {
+    constexpr int kBlock = 256;
+    double heard[kEars][kBlock];
+    float out[kEars * kBlock];
+    const double scale = 1.0 / settings_->full_scale;
+    while (next_ < frame) {
+        const auto count = static_cast<int>(std::min<std::int64_t>(kBlock, frame - next_));
+        for (std::size_t e = 0; e < kEars; ++e)
+            ear_[e].line().read(count, heard[e]);
+        for (int f = 0; f < count; ++f)
+            for (int e = 0; e < kEars; ++e) {
+                meter_.add(heard[e][f]);
+                out[kEars * f + e] = static_cast<float>(scale * heard[e][f]);
+            }
+        for (Sink* sink : sinks_) {
+            const auto wanted = static_cast<std::size_t>(count);
+            std::size_t taken = 0;
+            while (taken < wanted) {
+                const std::size_t now = sink->write(
+                    std::span<const float>(out + kEars * taken, kEars * (wanted - taken)));
+                if (now == 0)
+                    break;
+                taken += now;
+            }
+            dropped_ += static_cast<std::int64_t>(wanted - std::min(taken, wanted));
+        }
+        next_ += count;
+        frames_ += count;
+    }
+}
+
+std::int64_t Listener::last_frame() const noexcept {
+    std::int64_t last = next_;
+    for (const Ear& ear : ear_) {
+        const Line& line = ear.wave ? static_cast<const Line&>(*ear.wave) : *ear.paper;
+        last = std::max(last, line.last_frame() + 1);
+    }
+    return last;
+}
+
+bool Listener::add_sink(Sink& sink) {
+    if (std::find(sinks_.begin(), sinks_.end(), &sink) != sinks_.end())
+        return true;
+    if (!sink.open({settings_->rate, kEars}))
+        return false;
+    sinks_.push_back(&sink);
+    return true;
+}
+
+void Listener::remove_sink(Sink& sink) noexcept {
+    sinks_.erase(std::remove(sinks_.begin(), sinks_.end(), &sink), sinks_.end());
+}
+
+} // namespace ode::sound

@@ -1,0 +1,70 @@
+#pragma once
+
+#include "listen/pose.h"
+#include "mix/meter.h"
+#include "mix/settings.h"
+#include "path/ear_line.h"
+#include "path/paper_line.h"
+#include "sink/sink.h"
+#include "source/body_source.h"
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace ode::sound {
+
+/// Two ears, what travels to them, and the sinks that get what they hear.
+class Listener {
+public:
+    static constexpr int kEars = 2;
+
+    /// @param frame  first audio frame to be heard (time * rate).
+    Listener(const Settings& settings, std::int64_t frame);
+
+    /// To be changed at will; heard from the next step on.
+    Pose pose;
+
+    /// Takes over `pose`: ears go there from `time` [s] on within `duration` [s].
+    void begin_step(double time, double duration);
+
+    /// The settings have changed: what is under way is lost.
+    void restart();
+
+    void send(const FlowBlock& block) noexcept;
+    void send(const FacetBlock& block) noexcept;
+
+    /// Hands all frames before `frame` to the sinks.
+    void render(std::int64_t frame) noexcept;
+    /// Frame after the last that anything is under way to.
+    std::int64_t last_frame() const noexcept;
+
+    /// @return false when the sink refuses the format; Sink::error() says why.
+    bool add_sink(Sink& sink);
+    void remove_sink(Sink& sink) noexcept;
+    const std::vector<Sink*>& sinks() const noexcept { return sinks_; }
+
+    std::int64_t frames() const noexcept { return frames_; }   ///< rendered
+    std::int64_t dropped() const noexcept { return dropped_; } ///< not taken by a full sink
+    const Meter& meter() const noexcept { return meter_; }     ///< [Pa]
+
+private:
+    struct Ear {
+        std::unique_ptr<EarPath> path;
+        std::unique_ptr<EarLine> wave; ///< one of these two, by sampling
+        std::unique_ptr<PaperLine> paper;
+        Line& line() noexcept { return wave ? static_cast<Line&>(*wave) : *paper; }
+    };
+
+    void splat(const FlowBlock& block, bool ghost) noexcept;
+
+    const Settings* settings_;
+    std::int64_t next_;
+    std::int64_t frames_ = 0;
+    std::int64_t dropped_ = 0;
+    std::array<Ear, kEars> ear_;
+    std::vector<Sink*> sinks_; ///< the app's
+    Meter meter_;
+};
+
+} // namespace ode::sound

@@ -1,0 +1,139 @@
+#include "mix/scene.h"
+
+#include "source/paper_surface.h"
+#include "source/surface_flow.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ode::sound {
+
+Scene::Scene() = default;
+Scene::~Scene() = default;
+
+void Scene::set(const Settings& settings) {
+    const bool level_only =
+        settings.rate == settings_.rate && settings.radiation == settings_.radiation &&
+        settings.sampling == settings_.sampling && settings.air.density == settings_.air.density &&
+        settings.air.speed == settings_.air.speed;
+    settings_ = settings;
+    if (level_only)
+        return;
+    bodies_.clear();
+    hint_ = 0;
+    for (const auto& listener : listeners_) {
+        listener->restart();
+        if (stepping_)
+            listener->begin_step(time_, 0.0);
+    }
+}
+
+Listener& Scene::add_listener(double time) {
+    if (listeners_.empty())
+        time_ = time;
+    const auto frame = static_cast<std::int64_t>(std::ceil(time * settings_.rate));
+    listeners_.push_back(std::make_unique<Listener>(settings_, frame));
+    if (stepping_)
+        listeners_.back()->begin_step(time_, 0.0);
+    return *listeners_.back();
+}
+
+void Scene::remove_listener(Listener& listener) noexcept {
+    const auto at = std::find_if(listeners_.begin(), listeners_.end(),
+                                 [&](const auto& own) { return own.get() == &listener; });
+    if (at == listeners_.end())
+        return;
+    count_.frames += static_cast<unsigned long>(listener.frames());
+    gone_.add(listener.meter());
+    listeners_.erase(at);
+    if (listeners_.empty()) {
+        // Nobody observes from here on: what the sources know will be stale.
+        bodies_.clear();
+        hint_ = 0;
+        stepping_ = false;
+        duration_ = 0.0;
+    }
+}
+
+Scene::Body& Scene::find(const void* body, std::span<const int> triangle) {
+    if (hint_ < bodies_.size() && bodies_[hint_].key == body)
+        return bodies_[hint_];
+    for (hint_ = 0; hint_ < bodies_.size(); ++hint_)
+        if (bodies_[hint_].key == body)
+            return bodies_[hint_];
+    std::unique_ptr<BodySource> source;
+    if (settings_.sampling == Sampling::kSinc)
+        source = std::make_unique<SurfaceFlow>(triangle, settings_.rate);
+    else
+        source = std::make_unique<PaperSurface>(triangle, settings_.rate,
+                                                settings_.air.density * settings_.air.speed,
+                                                settings_.radiation == Radiation::kPaper);
+    bodies_.push_back({body, std::move(source)});
+    return bodies_.back();
+}
+
+void Scene::begin_step(double time) {
+    stepping_ = true;
+    for (const auto& listener : listeners_)
+        listener->begin_step(time, duration_);
+}
+
+void Scene::push(const void* body, std::span<const int> triangle, const SurfaceView& view) {
+    if (!stepping_)
+        begin_step(view.time - view.dt);
+    ++count_.substeps;
+    if (find(body, triangle).source->push(view, *this))
+        ++count_.gathers;
+}
+
+void Scene::end_body(const void* body) noexcept {
+    for (Body& own : bodies_)
+        if (own.key == body)
+            own.key = nullptr; // what it did last is still to be heard
+}
+
+void Scene::end_step(double time) {
+    if (!stepping_)
+        begin_step(time_);
+    for (Body& body : bodies_)
+        body.source->advance_to(time, *this);
+    std::erase_if(bodies_, [](const Body& body) { return !body.key && body.source->is_silent(); });
+    const std::int64_t open = settings_.first_open_frame(time);
+    for (const auto& listener : listeners_)
+        listener->render(open);
+    stepping_ = false;
+    duration_ = time - time_;
+    time_ = time;
+}
+
+void Scene::finish() {
+    constexpr double kSettled = 0.1; // [s]: longer than any source takes to fall silent
+    for (Body& body : bodies_)
+        body.source->advance_to(time_ + kSettled, *this);
+    for (const auto& listener : listeners_)
+        listener->render(listener->last_frame());
+}
+
+void Scene::on_flow(const FlowBlock& block) noexcept {
+    for (const auto& listener : listeners_)
+        listener->send(block);
+}
+
+void Scene::on_facets(const FacetBlock& block) noexcept {
+    for (const auto& listener : listeners_)
+        listener->send(block);
+}
+
+Scene::Count Scene::count() const noexcept {
+    Count count = count_;
+    Meter meter = gone_;
+    for (const auto& listener : listeners_) {
+        count.frames += static_cast<unsigned long>(listener->frames());
+        meter.add(listener->meter());
+    }
+    count.peak = meter.peak();
+    count.rms = meter.rms();
+    return count;
+}
+
+} // namespace ode::sound

@@ -1,0 +1,73 @@
+#pragma once
+
+#include "mix/listener.h"
+#include "source/body_source.h"
+
+#include <memory>
+#include <vector>
+
+namespace ode::sound {
+
+/// All that sounds and all that hear it, in step with a world's clock.
+///
+/// Bodies are known by an address that the caller chooses. Substeps of different bodies may come in
+/// any order within a step. Stepping thread. Allocates when a body or a listener is first seen.
+class Scene final : private BlockSink {
+public:
+    struct Count {
+        unsigned long substeps = 0;
+        unsigned long gathers = 0;
+        unsigned long frames = 0;
+        double peak = 0.0; ///< [Pa]
+        double rms = 0.0;  ///< [Pa]
+    };
+
+    Scene();
+    ~Scene() override;
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    const Settings& settings() const noexcept { return settings_; }
+    /// What is under way is lost when anything but full scale changes.
+    void set(const Settings& settings);
+
+    /// @param time  of the world now [s].
+    Listener& add_listener(double time);
+    void remove_listener(Listener& listener) noexcept;
+    std::size_t listeners() const noexcept { return listeners_.size(); }
+
+    /// One substep of one body. @param triangle  as in Surface; read at the first substep alone.
+    void push(const void* body, std::span<const int> triangle, const SurfaceView& view);
+    /// The body will come no more; its address may be used anew.
+    void end_body(const void* body) noexcept;
+    /// All substeps up to `time` [s] have come.
+    void end_step(double time);
+    /// Plays out what still travels. push() may follow, at a later time.
+    void finish();
+
+    Count count() const noexcept;
+    const std::vector<std::unique_ptr<Listener>>& all() const noexcept { return listeners_; }
+
+private:
+    struct Body {
+        const void* key; ///< null once it has ended
+        std::unique_ptr<BodySource> source;
+    };
+
+    void on_flow(const FlowBlock& block) noexcept override;
+    void on_facets(const FacetBlock& block) noexcept override;
+    Body& find(const void* body, std::span<const int> triangle);
+    void begin_step(double time);
+
+    Settings settings_;
+    std::vector<std::unique_ptr<Listener>> listeners_;
+    std::vector<Body> bodies_;
+    std::size_t hint_ = 0;  ///< body of the last push
+    bool stepping_ = false; ///< between the first substep and end_step()
+    double time_ = 0.0;     ///< end of the last step [s]
+    double duration_ = 0.0; ///< of the last step [s]
+    Count count_;
+    Meter gone_; ///< of listeners removed
+};
+
+} // namespace ode::sound

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <AL/alc.h>
+
+#include <memory>
+
+namespace ode::sound {
+
+/// An open OpenAL device and how samples leave it.
+struct OpenAlDevice {
+    struct Closer {
+        void operator()(ALCdevice* device) const noexcept { alcCloseDevice(device); }
+    };
+    std::unique_ptr<ALCdevice, Closer> handle;
+    /// Rendered by alcRenderSamplesSOFT (float stereo) instead of by a sound card.
+    bool loopback = false;
+
+    /// The system's default output. @throws Refused when there is none
+    static OpenAlDevice open_default();
+};
+
+/// A context of our own on a device, without touching the application's: it is never current but
+/// for threads that ask for it (ALC_EXT_thread_local_context).
+class OpenAlContext {
+public:
+    /// @throws Refused
+    OpenAlContext(OpenAlDevice device, int rate);
+    OpenAlContext(const OpenAlContext&) = delete;
+    OpenAlContext& operator=(const OpenAlContext&) = delete;
+    ~OpenAlContext() { alcDestroyContext(context_); }
+
+    int rate() const noexcept;          ///< the device's own [Hz]
+    int period_frames() const noexcept; ///< mixed by the device at a time
+    bool connected() const noexcept;    ///< false when the device was unplugged
+
+    /// Makes the context current for the calling thread, and what was so before at its end.
+    class Scope {
+    public:
+        explicit Scope(OpenAlContext& context) noexcept;
+        Scope(const Scope&) = delete;
+        Scope& operator=(const Scope&) = delete;
+        ~Scope();
+
+    private:
+        OpenAlContext& context_;
+        ALCcontext* before_;
+    };
+
+private:
+    using SetThreadContext = ALCboolean(ALC_APIENTRY*)(ALCcontext*);
+    using GetThreadContext = ALCcontext*(ALC_APIENTRY*)();
+
+    OpenAlDevice device_;
+    ALCcontext* context_ = nullptr;
+    SetThreadContext set_thread_context_ = nullptr;
+    GetThreadContext get_thread_context_ = nullptr;
+};
+
+} // namespace ode::sound

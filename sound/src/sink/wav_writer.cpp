@@ -1,0 +1,74 @@
+// Written here and not by libsndfile, because that cannot leave the PEAK chunk, which holds the
+// time of day, out of a file that may grow into RF64: bytes would differ from run to run.
+#include "sink/file_writer.h"
+#include "sink/wav_header.h"
+
+#include <bit>
+#include <cerrno>
+#include <cstring>
+#include <unistd.h>
+
+namespace ode::sound {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "WAV samples are little-endian");
+
+class WavWriter final : public FileWriter {
+public:
+    const char* begin(int descriptor, const Format& format) noexcept override {
+        descriptor_ = descriptor;
+        format_ = format;
+        return checkpoint();
+    }
+
+    const char* append(std::span<const float> interleaved) noexcept override {
+        const auto* bytes = reinterpret_cast<const unsigned char*>(interleaved.data());
+        if (const char* reason = put(bytes, interleaved.size_bytes(), end())) {
+            // Cut what came through of a frame; the header then tells of whole frames only.
+            [[maybe_unused]] const int cut = ftruncate(descriptor_, static_cast<off_t>(end()));
+            checkpoint();
+            return reason;
+        }
+        frames_ += interleaved.size() / static_cast<std::size_t>(format_.channels);
+        return nullptr;
+    }
+
+    const char* checkpoint() noexcept override {
+        const auto header = wav_header(format_, frames_);
+        return put(header.data(), header.size(), 0);
+    }
+    const char* finish() noexcept override { return checkpoint(); }
+    bool clips() const noexcept override { return false; }
+    std::uint64_t frames() const noexcept override { return frames_; }
+
+private:
+    std::uint64_t end() const noexcept {
+        return kWavHeaderSize + frames_ * 4 * static_cast<std::uint64_t>(format_.channels);
+    }
+
+    /// pwrite(), which may write in parts. What was written of whole frames stays uncounted: the
+    /// next append, if any, writes over it.
+    const char* put(const unsigned char* from, std::size_t size, std::uint64_t at) noexcept {
+        while (size > 0) {
+            const ssize_t done = pwrite(descriptor_, from, size, static_cast<off_t>(at));
+            if (done < 0 && errno == EINTR)
+                continue;
+            if (done < 0)
+                return std::strerror(errno); // of one thread at a time in glibc
+            from += done;
+            size -= static_cast<std::size_t>(done);
+            at += static_cast<std::uint64_t>(done);
+        }
+        return nullptr;
+    }
+
+    int descriptor_ = -1;
+    Format format_{1, 1};
+    std::uint64_t frames_ = 0;
+};
+
+} // namespace
+
+std::unique_ptr<FileWriter> make_wav_writer() { return std::make_unique<WavWriter>(); }
+
+} // namespace ode::sound

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "source/surface.h"
+
+#include <cstdint>
+
+namespace ode::sound {
+
+/// Air moved by the nodes of a surface at one sample of the oversampled grid. Borrowed.
+struct FlowBlock {
+    std::int64_t sample;     ///< time * grid rate
+    int nodes;               ///< multiple of four
+    const double* position;  ///< points [m] at that time
+    const double* area;      ///< area vectors, points [m^2], of about that time
+    const double* softening; ///< square of each node's least distance [m^2]
+    const double* flow;      ///< low-passed area . velocity [m^3/s]
+    double gain;             ///< 1, or a part while the source crosses over to another place
+};
+
+/// Triangles at one audio sample as P01 3.2 leaves them. Borrowed.
+struct FacetBlock {
+    std::int64_t sample; ///< time * audio rate
+    int facets;
+    const double* facet; ///< kFields doubles each
+    /// pressure [Pa], area [m^2], centre x y z [m], unit normal x y z
+    static constexpr int kFields = 8;
+};
+
+/// Takes what sources give off, in order of time for each source.
+class BlockSink {
+public:
+    virtual ~BlockSink() = default;
+    virtual void on_flow(const FlowBlock& block) noexcept = 0;
+    virtual void on_facets(const FacetBlock& block) noexcept = 0;
+};
+
+/// The sounding surface of one body. Stepping thread; allocates at the first view alone.
+class BodySource {
+public:
+    virtual ~BodySource() = default;
+
+    /// Next substep. A gap in time before it means that the body was asleep.
+    /// @return whether the surface was gathered (not every substep need be).
+    virtual bool push(const SurfaceView& view, BlockSink& out) = 0;
+
+    /// No substep of this body will come before `time` [s]. A body that has delivered less falls
+    /// silent without a click.
+    virtual void advance_to(double time, BlockSink& out) = 0;
+
+    /// Nothing more will come of it until the next push().
+    virtual bool is_silent() const noexcept = 0;
+};
+
+} // namespace ode::sound

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+namespace ode::soft {
+
+/// Roots of f in ascending order, by stepping and bisection.
+inline std::vector<double> roots(const std::function<double(double)>& f, double from, double step,
+                                 std::size_t count) {
+    std::vector<double> out;
+    for (double x = from; out.size() < count; x += step) {
+        double low = x, high = x + step;
+        if (f(low) * f(high) > 0)
+            continue;
+        const bool rising = f(high) > 0;
+        for (int i = 0; i < 60; ++i) {
+            const double mid = 0.5 * (low + high);
+            ((f(mid) > 0) == rising ? high : low) = mid;
+        }
+        out.push_back(low);
+    }
+    return out;
+}
+
+/// Timoshenko's beam of rectangular section (Huang 1961, doi:10.1115/1.3641787): frequency
+/// equations in b with b^2 = rho A L^4 w^2 / (E I). Shear coefficient of Cowper (1966).
+struct TimoshenkoBar {
+    double length, width, thickness; ///< bending along the thickness [m]
+    double young, poisson, density;
+
+    enum class Ends { kFree, kClampedFree };
+
+    std::vector<double> frequencies(Ends ends, std::size_t count) const {
+        const double inertia = width * std::pow(thickness, 3) / 12, area = width * thickness;
+        const double shear = 10 * (1 + poisson) / (12 + 11 * poisson);
+        const double r2 = inertia / (area * length * length);
+        const double s2 = r2 * 2 * (1 + poisson) / shear;
+        const auto equation = [&](double b) {
+            const double spread = std::sqrt((r2 - s2) * (r2 - s2) + 4 / (b * b));
+            const double alpha = std::sqrt((spread - r2 - s2) / 2) * b;
+            const double beta = std::sqrt((spread + r2 + s2) / 2) * b;
+            const double root = std::sqrt(1 - b * b * r2 * s2);
+            // Divided by cosh(alpha), so that nothing overflows.
+            const double one = 1 / std::cosh(alpha), cosine = std::cos(beta);
+            const double sine = std::tanh(alpha) * std::sin(beta);
+            if (ends == Ends::kFree)
+                return 2 * one - 2 * cosine +
+                       b / root * (b * b * r2 * (r2 - s2) * (r2 - s2) + 3 * r2 - s2) * sine;
+            return 2 * one + (b * b * (r2 - s2) * (r2 - s2) + 2) * cosine -
+                   b * (r2 + s2) / root * sine;
+        };
+        std::vector<double> out;
+        for (const double b : roots(equation, 1.0, 0.25, count))
+            out.push_back(b / (2 * std::numbers::pi * length * length) *
+                          std::sqrt(young * inertia / (density * area)));
+        return out;
+    }
+};
+
+/// 1200 log2(f / reference).
+inline double cents(double f, double reference) { return 1200 * std::log2(f / reference); }
+
+} // namespace ode::soft

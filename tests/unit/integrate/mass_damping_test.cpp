@@ -1,0 +1,97 @@
+#include "integrate/mass_damping.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace ode::soft {
+namespace {
+
+constexpr std::size_t kNodes = 7;
+
+struct Cloud {
+    NodeState state{NodeArray(kNodes), NodeArray(kNodes)};
+    std::vector<double> mass;
+    std::vector<double> inverse_mass;
+
+    Cloud() {
+        for (std::size_t i = 0; i < kNodes; ++i) {
+            const double t = static_cast<double>(i);
+            state.position[i] = Vec3(std::sin(3 * t), std::cos(5 * t), std::sin(7 * t + 1));
+            mass.push_back(1 + 0.3 * t);
+            inverse_mass.push_back(1 / mass.back());
+        }
+    }
+
+    void move_rigidly(const Vec3& velocity, const Vec3& spin) {
+        for (std::size_t i = 0; i < kNodes; ++i)
+            state.velocity[i] = velocity + spin.cross(state.position[i]);
+    }
+
+    void damp(std::size_t held, double alpha, double dt) {
+        damp_deformation(mass, inverse_mass, held, alpha, dt, state);
+    }
+
+    Vec3 momentum() const {
+        Vec3 sum = Vec3::Zero();
+        for (std::size_t i = 0; i < kNodes; ++i)
+            sum += mass[i] * state.velocity[i];
+        return sum;
+    }
+    Vec3 angular_momentum() const {
+        Vec3 sum = Vec3::Zero();
+        for (std::size_t i = 0; i < kNodes; ++i)
+            sum += mass[i] * state.position[i].cross(state.velocity[i]);
+        return sum;
+    }
+};
+
+constexpr double kRounding = 1e-13; // momenta here are of order 10
+
+TEST(MassDamping, LeavesRigidMotionAlone) {
+    Cloud cloud;
+    cloud.move_rigidly({1, -2, 3}, {4, 5, -6});
+    const NodeArray before = cloud.state.velocity;
+    cloud.damp(0, 5, 0.1);
+    for (std::size_t i = 0; i < kNodes; ++i)
+        EXPECT_NEAR((cloud.state.velocity[i] - before[i]).norm(), 0, kRounding) << i;
+}
+
+TEST(MassDamping, KeepsMomentaWhileDeformationDecaysByTheExponential) {
+    Cloud cloud;
+    cloud.move_rigidly({1, -2, 3}, {4, 5, -6});
+    const NodeArray rigid = cloud.state.velocity;
+    Cloud other;
+    for (std::size_t i = 0; i < kNodes; ++i) {
+        const double t = static_cast<double>(i);
+        other.state.velocity[i] = rigid[i] + Vec3(std::cos(t), std::sin(2 * t), std::cos(4 * t));
+    }
+    const Vec3 p = other.momentum(), l = other.angular_momentum();
+    Cloud stripped = other;
+    stripped.damp(0, 1e9, 1); // no deformation is left: the rigid fit
+    Cloud damped = other;
+    damped.damp(0, 5, 0.1);
+    EXPECT_NEAR((damped.momentum() - p).norm(), 0, 10 * kRounding);
+    EXPECT_NEAR((damped.angular_momentum() - l).norm(), 0, 10 * kRounding);
+    for (std::size_t i = 0; i < kNodes; ++i) {
+        const Vec3 whole = other.state.velocity[i] - stripped.state.velocity[i];
+        const Vec3 left = damped.state.velocity[i] - stripped.state.velocity[i];
+        EXPECT_NEAR((left - std::exp(-0.5) * whole).norm(), 0, kRounding) << i;
+    }
+}
+
+TEST(MassDamping, ABodyHeldFastDecaysTowardsRest) {
+    Cloud cloud;
+    cloud.move_rigidly({1, -2, 3}, {4, 5, -6});
+    cloud.inverse_mass[0] = cloud.inverse_mass[3] = cloud.inverse_mass[6] = 0;
+    const NodeArray before = cloud.state.velocity;
+    cloud.damp(3, 5, 0.1);
+    for (std::size_t i = 0; i < kNodes; ++i) {
+        const double left = cloud.inverse_mass[i] == 0 ? 1 : std::exp(-0.5);
+        EXPECT_NEAR((cloud.state.velocity[i] - left * before[i]).norm(), 0, kRounding) << i;
+    }
+}
+
+} // namespace
+} // namespace ode::soft

@@ -1,0 +1,146 @@
+#include "loopback.h"
+#include "signals.h"
+#include "sink/openal_sink.h"
+
+#include <AL/al.h>
+#include <chrono>
+#include <cstdlib>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <thread>
+
+namespace ode::sound {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// The application owns a context, on the process and on its thread. Ours comes, plays and goes.
+TEST(OpenAlSink, LeavesTheApplicationsContextAlone) {
+    const auto open_loopback = reinterpret_cast<LPALCLOOPBACKOPENDEVICESOFT>(
+        alcGetProcAddress(nullptr, "alcLoopbackOpenDeviceSOFT"));
+    ALCdevice* device = open_loopback(nullptr);
+    ASSERT_NE(device, nullptr);
+    const auto get_thread_context = reinterpret_cast<PFNALCGETTHREADCONTEXTPROC>(
+        alcGetProcAddress(device, "alcGetThreadContext"));
+    const auto set_thread_context = reinterpret_cast<PFNALCSETTHREADCONTEXTPROC>(
+        alcGetProcAddress(device, "alcSetThreadContext"));
+    const ALCint attributes[] = {ALC_FORMAT_CHANNELS_SOFT,
+                                 ALC_STEREO_SOFT,
+                                 ALC_FORMAT_TYPE_SOFT,
+                                 ALC_FLOAT_SOFT,
+                                 ALC_FREQUENCY,
+                                 44100,
+                                 0};
+    ALCcontext* context = alcCreateContext(device, attributes);
+    ALCcontext* of_thread = alcCreateContext(device, attributes);
+    ASSERT_TRUE(context && of_thread);
+    for (const bool with_thread_context : {false, true}) {
+        alcMakeContextCurrent(context);
+        ALCcontext* const expected = with_thread_context ? of_thread : nullptr;
+        set_thread_context(expected);
+        ALuint source = 0;
+        alGenSources(1, &source);
+        {
+            test::Loopback loopback;
+            OpenAlSink sink(loopback.device());
+            const auto untouched = [&](const char* when) {
+                EXPECT_EQ(get_thread_context(), expected) << when;
+                set_thread_context(nullptr);
+                EXPECT_EQ(alcGetCurrentContext(), context) << when;
+                set_thread_context(expected);
+                EXPECT_TRUE(alIsSource(source)) << when;
+                EXPECT_EQ(alGetError(), AL_NO_ERROR) << when;
+            };
+            ASSERT_TRUE(sink.open({48000, 2}));
+            untouched("after open");
+            sink.write(test::noise(2 * 5000));
+            untouched("after write");
+            sink.close();
+            untouched("after close");
+        }
+        EXPECT_TRUE(alIsSource(source)) << "after the sink's end";
+        alDeleteSources(1, &source);
+        set_thread_context(nullptr);
+        alcMakeContextCurrent(nullptr);
+    }
+    alcDestroyContext(of_thread);
+    alcDestroyContext(context);
+    alcCloseDevice(device);
+}
+
+// Nobody renders, so that nothing drains: the simulation is ahead without bound.
+TEST(OpenAlSink, SimulationFarAheadIsToldAndNeverWaits) {
+    test::Loopback loopback;
+    OpenAlSink sink(loopback.device());
+    ASSERT_TRUE(sink.open({8000, 1}));
+    const std::vector<float> second(8000, 0.25F);
+    std::size_t offered = 0;
+    std::size_t taken = 0;
+    for (; offered < 30 * second.size(); offered += second.size()) {
+        taken += sink.write(second);
+        EXPECT_EQ(sink.backlog(), taken);
+    }
+    EXPECT_GE(taken, 10 * second.size());
+    EXPECT_LT(taken, offered);
+    EXPECT_THAT(sink.error(), testing::AllOf(testing::HasSubstr("10 s ahead"),
+                                             testing::HasSubstr("dSoundSinkGetBacklog")));
+    sink.close(); // gives up on a device that takes nothing
+}
+
+TEST(OpenAlSink, FormatItCannotPlayIsToldAndForgotten) {
+    test::Loopback loopback;
+    OpenAlSink sink(loopback.device());
+    EXPECT_FALSE(sink.open({48000, 6}));
+    EXPECT_THAT(sink.error(), testing::HasSubstr("not 6"));
+    EXPECT_EQ(sink.write(std::vector<float>(60)), 10U);
+    EXPECT_EQ(sink.backlog(), 0U);
+}
+
+// In a process of its own, since OpenAL reads ALSOFT_DRIVERS once. The null back end keeps a sound
+// card's time: it cannot play half a second in less, and how much more depends on the machine.
+[[noreturn]] void play_half_a_second_on_null_driver() {
+    setenv("ALSOFT_DRIVERS", "null", 1);
+    OpenAlSink sink(OpenAlDevice::open_default());
+    if (!sink.open({48000, 2}))
+        std::exit(1);
+    const auto x = test::noise(2 * 24'000);
+    const auto start = Clock::now();
+    if (sink.write(x) != 24'000 || sink.backlog() == 0)
+        std::exit(2);
+    while (sink.backlog() > 0) {
+        if (Clock::now() - start > std::chrono::seconds(20))
+            std::exit(3);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    // The device mixes up to its own buffer ahead: three periods of 1024 frames by default, 64 ms.
+    const std::chrono::duration<double> elapsed = Clock::now() - start;
+    if (elapsed.count() < 0.5 - 0.1)
+        std::exit(4);
+    sink.close();
+    std::exit(*sink.error() == '\0' ? 0 : 5);
+}
+
+TEST(OpenAlSinkDeathTest, NullBackEndPlaysInRealTime) {
+    testing::GTEST_FLAG(death_test_style) = "threadsafe";
+    EXPECT_EXIT(play_half_a_second_on_null_driver(), testing::ExitedWithCode(0), "");
+}
+
+[[noreturn]] void close_plays_out_on_null_driver() {
+    setenv("ALSOFT_DRIVERS", "null", 1);
+    OpenAlSink sink(OpenAlDevice::open_default());
+    if (!sink.open({48000, 2}))
+        std::exit(1);
+    sink.write(test::noise(2 * 12'000));
+    const auto start = Clock::now();
+    sink.close();
+    const std::chrono::duration<double> elapsed = Clock::now() - start;
+    std::exit(elapsed.count() > 0.25 - 0.1 ? 0 : 2);
+}
+
+TEST(OpenAlSinkDeathTest, CloseWaitsUntilAllIsPlayed) {
+    testing::GTEST_FLAG(death_test_style) = "threadsafe";
+    EXPECT_EXIT(close_plays_out_on_null_driver(), testing::ExitedWithCode(0), "");
+}
+
+} // namespace
+} // namespace ode::sound
