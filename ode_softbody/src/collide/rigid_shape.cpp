@@ -75,6 +75,9 @@ bool read_size(dGeomID geom, RigidShape& shape) noexcept {
         shape.size = Vec3(radius, 0, length / 2);
         return true;
     case dConvexClass:
+        shape.kind = ShapeKind::convex;
+        shape.probe = geom;
+        return true;
     case dTriMeshClass:
     case dHeightfieldClass:
         shape.kind = ShapeKind::probed;
@@ -98,6 +101,7 @@ Vec3 half_extent(const RigidShape& shape) noexcept {
     case ShapeKind::cylinder:
         return {s.x(), s.x(), s.z()};
     case ShapeKind::plane:
+    case ShapeKind::convex:
     case ShapeKind::probed:
         break;
     }
@@ -107,7 +111,7 @@ Vec3 half_extent(const RigidShape& shape) noexcept {
 } // namespace
 
 SurfaceDistance RigidShape::distance(const Vec3& p) const noexcept {
-    return with_distance(kind, [&](auto distance_of) { return distance_of(size, p); });
+    return with_distance(kind, [&](auto distance_of) { return distance_of(*this, p); });
 }
 
 SurfaceDistance RigidShape::distance_at(const Pose& body_pose, const Vec3& world) const noexcept {
@@ -126,6 +130,12 @@ double RigidShape::support(const Vec3& n) const noexcept {
         return size.x() + size.z() * std::fabs(n.z());
     case ShapeKind::cylinder:
         return size.x() * std::hypot(n.x(), n.y()) + size.z() * std::fabs(n.z());
+    case ShapeKind::convex: {
+        double farthest = -std::numeric_limits<double>::infinity();
+        for (const Vec3& corner : corners)
+            farthest = std::fmax(farthest, n.dot(corner));
+        return farthest;
+    }
     case ShapeKind::plane:
     case ShapeKind::probed:
         break;
@@ -135,7 +145,7 @@ double RigidShape::support(const Vec3& n) const noexcept {
 
 Aabb RigidShape::bounds(const Pose& body_pose) const noexcept {
     Aabb box;
-    if (kind == ShapeKind::plane || kind == ShapeKind::probed) {
+    if (!half_extent(*this).allFinite()) {
         const double all = std::numeric_limits<double>::infinity();
         box.include(Vec3::Constant(all));
         box.include(Vec3::Constant(-all));
@@ -155,7 +165,7 @@ std::optional<RigidShape> capture_shape(dGeomID geom) noexcept {
         return {};
     if (!read_size(inner, shape))
         return {};
-    if (shape.kind == ShapeKind::probed && inner != geom)
+    if (shape.probe && inner != geom)
         return {}; // ODE can't be asked about a geom inside a transform without moving it
     shape.body = dGeomGetBody(geom);
     if (shape.kind == ShapeKind::plane)

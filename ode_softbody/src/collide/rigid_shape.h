@@ -1,11 +1,13 @@
 #pragma once
 
 #include "collide/aabb.h"
+#include "collide/convex_faces.h"
 #include "collide/rigid_pose.h"
 
 #include <ode/collision.h>
 
 #include <optional>
+#include <span>
 
 namespace ode::soft {
 
@@ -15,7 +17,8 @@ enum class ShapeKind {
     box,
     capsule,
     cylinder,
-    probed ///< convex, trimesh, height field: no distance of ours, ODE is asked (SurfaceProbe)
+    convex, ///< its owner has to give it `corners` and `faces`
+    probed  ///< trimesh, height field: no distance of ours, ODE is asked (SurfaceProbe)
 };
 
 /// Distance from a shape's surface, negative inside, and its gradient, which is the outward normal
@@ -36,8 +39,9 @@ struct RigidShape {
     /// z = 0 with the solid below it.
     Pose pose;
     dBodyID body = nullptr;
-    dGeomID probe =
-        nullptr; ///< of a probed kind: the geom to ask, which has to outlive the snapshot
+    dGeomID probe = nullptr; ///< convex, probed: the geom to ask; it has to outlive the snapshot
+    std::span<const Vec3> corners;       ///< of a convex, from convex_corners(); borrowed
+    std::span<const TangentPlane> faces; ///< of a convex, from hull_faces(); borrowed
 
     /// Not for probed kinds. Exact everywhere, inside and out, on edges and at corners; at points
     /// where several surface points are closest, one of them. About 10 ns. @param p  in the shape's
@@ -51,7 +55,7 @@ struct RigidShape {
     /// Largest n.x of the shape's points x, in its own frame. @param n  unit.
     double support(const Vec3& n) const noexcept;
 
-    /// Box that holds the shape; a plane's and a probed kind's are unbounded.
+    /// Box that holds the shape; those of planes, convex and probed kinds are unbounded.
     Aabb bounds(const Pose& body_pose) const noexcept;
 };
 

@@ -3,6 +3,7 @@
 #include "collide/rigid_shape.h"
 
 #include <cmath>
+#include <limits>
 
 namespace ode::soft {
 
@@ -61,24 +62,47 @@ inline SurfaceDistance cylinder_distance(const Vec3& size, const Vec3& p) noexce
     return side >= cap ? SurfaceDistance{side, radial} : SurfaceDistance{cap, axial};
 }
 
+/// Exact inside; outside, near an edge, that of the nearer face's plane: too short, never of the
+/// wrong sign.
+inline SurfaceDistance convex_distance(std::span<const TangentPlane> faces,
+                                       const Vec3& p) noexcept {
+    SurfaceDistance largest{-std::numeric_limits<double>::infinity(), Vec3::UnitZ()};
+    for (const TangentPlane& face : faces) {
+        const double distance = face.normal.dot(p) - face.offset;
+        if (distance > largest.distance)
+            largest = {distance, face.normal};
+    }
+    return largest;
+}
+
 /// Calls `f` with the distance function of the kind, so that loops are compiled once per kind and
 /// branch outside.
 template <class F>
 decltype(auto) with_distance(ShapeKind kind, F&& f) {
     switch (kind) {
     case ShapeKind::sphere:
-        return f([](const Vec3& s, const Vec3& p) noexcept { return sphere_distance(s, p); });
+        return f(
+            [](const RigidShape& s, const Vec3& p) noexcept { return sphere_distance(s.size, p); });
     case ShapeKind::box:
-        return f([](const Vec3& s, const Vec3& p) noexcept { return box_distance(s, p); });
+        return f(
+            [](const RigidShape& s, const Vec3& p) noexcept { return box_distance(s.size, p); });
     case ShapeKind::capsule:
-        return f([](const Vec3& s, const Vec3& p) noexcept { return capsule_distance(s, p); });
+        return f([](const RigidShape& s, const Vec3& p) noexcept {
+            return capsule_distance(s.size, p);
+        });
     case ShapeKind::cylinder:
-        return f([](const Vec3& s, const Vec3& p) noexcept { return cylinder_distance(s, p); });
+        return f([](const RigidShape& s, const Vec3& p) noexcept {
+            return cylinder_distance(s.size, p);
+        });
+    case ShapeKind::convex:
+        return f([](const RigidShape& s, const Vec3& p) noexcept {
+            return convex_distance(s.faces, p);
+        });
     case ShapeKind::plane:
     case ShapeKind::probed: // has none; never asked
         break;
     }
-    return f([](const Vec3& s, const Vec3& p) noexcept { return plane_distance(s, p); });
+    return f([](const RigidShape& s, const Vec3& p) noexcept { return plane_distance(s.size, p); });
 }
 
 } // namespace ode::soft

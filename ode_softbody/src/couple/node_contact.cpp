@@ -52,7 +52,15 @@ void NodeContact::begin_step(const RigidShape& shape, const ContactLaw& law,
     }
     shape_ = shape;
     law_ = law;
-    samples_.begin_step(shape, law, dt);
+    if (shape.kind == ShapeKind::convex) {
+        if (corners_.empty()) {
+            corners_ = convex_corners(shape.probe);
+            faces_ = hull_faces(corners_);
+        }
+        shape_.corners = corners_;
+        shape_.faces = faces_;
+    }
+    samples_.begin_step(shape_, law, dt);
     // Half is the samples'; a node may meet as many as three planes of a probed shape.
     const double share = shape.kind == ShapeKind::plane    ? 1
                          : shape.kind == ShapeKind::probed ? 1.0 / SurfaceProbe::kMostPlanes
@@ -99,7 +107,8 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
         samples_.look_away();
     // Samples lie within size of the shape's middle; rotation may move them faster than any node
     // sees.
-    const double span = shape_.size.norm() + shape_.size.x();
+    const double span =
+        shape_.kind == ShapeKind::convex ? samples_.reach() : shape_.size.norm() + shape_.size.x();
     schedule_look(nearest, std::sqrt(fastest2) + motion.spin.norm() * span);
 }
 
@@ -178,7 +187,7 @@ double NodeContact::find_touching(Distance distance_of, const NodeArray& positio
     for (const int i : candidate_) {
         const Vec3 x = position[index(nodes_.node[index(i)])];
         const Vec3 local = pose.to_local(x);
-        SurfaceDistance gap = distance_of(shape_.size, local);
+        SurfaceDistance gap = distance_of(shape_, local);
         Vec3& entered = entered_[index(i)];
         if (anchored_[index(i)] && gap.normal.dot(entered) < 0)
             gap = {entered.dot(local) - shape_.support(entered), entered};

@@ -94,6 +94,8 @@ private:
     const SurfaceNodes& nodes_;
     dGeomID geom_;
     RigidShape shape_;
+    std::vector<Vec3> corners_;       ///< of a convex
+    std::vector<TangentPlane> faces_; ///< of a convex
     ContactLaw law_;
     // Per surface node:
     std::vector<double> stiffness_;      ///< [N/m]

@@ -67,6 +67,10 @@ std::vector<RigidSample> sample_shape(const RigidShape& shape, double spacing) {
     case ShapeKind::cylinder:
         add_rims(radius, end.z(), spacing, out);
         break;
+    case ShapeKind::convex:
+        for (const Vec3& corner : shape.corners)
+            out.push_back({corner, 0});
+        break;
     case ShapeKind::plane:
     case ShapeKind::probed:
         break;

@@ -64,6 +64,13 @@ void SampleContact::look(const NodeArray& position, const Pose& shape, double re
     }
 }
 
+double SampleContact::reach() const noexcept {
+    double farthest = 0;
+    for (const RigidSample& s : sample_)
+        farthest = std::fmax(farthest, s.center.norm() + s.radius);
+    return farthest;
+}
+
 void SampleContact::look_away() noexcept {
     if (!near_.empty())
         forget();

@@ -41,6 +41,7 @@ public:
               NodeArray& force) noexcept;
 
     std::size_t bearing() const noexcept { return touch_.size(); }
+    double reach() const noexcept; ///< of the farthest sample from the shape's origin [m]
     bool is_near() const noexcept { return !near_.empty(); }
     void forget() noexcept;
 

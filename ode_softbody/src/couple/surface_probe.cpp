@@ -16,13 +16,12 @@ Vec3 vec(const dReal* v) noexcept { return {v[0], v[1], v[2]}; }
 /// ODE's colliders put the contact either on the ball (deepest point, normal of the surface) or on
 /// the surface (closest point; the normal may then be that of a face whose edge is closest), and
 /// for convex geoms somewhere between (libccd), where only normal and depth mean anything.
-TangentPlane plane_of(const dContactGeom& contact, const Vec3& center, double radius,
-                      bool convex) noexcept {
+TangentPlane plane_of(const dContactGeom& contact, const Vec3& center, double radius) noexcept {
     Vec3 normal = vec(contact.normal); // into the ball, which is g1: away from the surface
     const Vec3 at = vec(contact.pos);
     const Vec3 away = center - at;
     const double distance = away.norm();
-    if (convex || std::fabs(distance - radius) < 1e-6 * radius)
+    if (std::fabs(distance - radius) < 1e-6 * radius)
         return {normal, normal.dot(center) - (radius - contact.depth)};
     if (distance > 1e-6 * radius && away.dot(normal) > 0)
         normal = away / distance;
@@ -32,23 +31,9 @@ TangentPlane plane_of(const dContactGeom& contact, const Vec3& center, double ra
 } // namespace
 
 SurfaceProbe::SurfaceProbe(double radius)
-    : ball_(dCreateSphere(nullptr, radius)), ray_(dCreateRay(nullptr, radius)), radius_(radius) {}
+    : ball_(dCreateSphere(nullptr, radius)), radius_(radius) {}
 
-SurfaceProbe::~SurfaceProbe() {
-    dGeomDestroy(ball_);
-    dGeomDestroy(ray_);
-}
-
-TangentPlane SurfaceProbe::sharpen(dGeomID convex, const TangentPlane& rough,
-                                   const Vec3& center) const noexcept {
-    const Vec3& n = rough.normal;
-    dGeomRaySet(ray_, center.x(), center.y(), center.z(), -n.x(), -n.y(), -n.z());
-    dContactGeom hit;
-    if (dCollide(ray_, convex, 1, &hit, sizeof hit) == 0)
-        return rough;
-    const Vec3 normal = vec(hit.normal);
-    return normal.dot(n) > kSameDirection ? TangentPlane{normal, normal.dot(vec(hit.pos))} : rough;
-}
+SurfaceProbe::~SurfaceProbe() { dGeomDestroy(ball_); }
 
 int SurfaceProbe::feel(dGeomID geom, const Vec3& point,
                        std::array<TangentPlane, kMostPlanes>& out) const noexcept {
@@ -69,11 +54,8 @@ int SurfaceProbe::feel(dGeomID geom, const Vec3& point,
     std::sort(contact, contact + n,
               [](const dContactGeom& a, const dContactGeom& b) { return a.depth > b.depth; });
     int found = 0;
-    const bool convex = dGeomGetClass(geom) == dConvexClass;
     for (int i = 0; i < n && found < kMostPlanes; ++i) {
-        TangentPlane plane = plane_of(contact[i], center, radius_, convex);
-        if (convex)
-            plane = sharpen(geom, plane, center);
+        TangentPlane plane = plane_of(contact[i], center, radius_);
         plane.offset -= plane.normal.dot(position);
         plane.normal = rotation.transpose() * plane.normal;
         const bool known = std::any_of(out.begin(), out.begin() + found, [&](const auto& p) {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/types.h"
-#include "collide/rigid_pose.h"
+#include "collide/convex_faces.h"
 
 #include <ode/collision.h>
 
@@ -10,14 +10,8 @@
 
 namespace ode::soft {
 
-/// A piece of a rigid surface seen as a plane, in the shape's frame: solid where normal.x < offset.
-struct TangentPlane {
-    Vec3 normal;
-    double offset; ///< [m]
-};
-
 /// Asks ODE for the surface near a point, for the kinds of geom whose shape ODE keeps to itself
-/// (convex, height field) or that are many triangles (trimesh): the contacts of a small ball with
+/// (height field) or that are many triangles (trimesh): the contacts of a small ball with
 /// the geom, turned into the tangent planes there. About 1 us; not for every substep.
 class SurfaceProbe {
 public:
@@ -38,13 +32,7 @@ public:
              std::array<TangentPlane, kMostPlanes>& out) const noexcept;
 
 private:
-    /// ODE's convex colliders are good to a few thousandths of a radian; a ray finds the face
-    /// itself.
-    TangentPlane sharpen(dGeomID convex, const TangentPlane& rough,
-                         const Vec3& center) const noexcept;
-
     dGeomID ball_; ///< in no space
-    dGeomID ray_;  ///< in no space
     double radius_;
 };
 

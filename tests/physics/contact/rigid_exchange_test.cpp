@@ -107,7 +107,7 @@ TEST(RigidExchange, SoftBoxComesToRestOnAFloorThatTheCallbackKnows) {
 }
 
 /// Floors with their top at z = 0, in all the kinds that ODE has for one.
-enum class Floor { plane, box, cylinder, trimesh, heightfield };
+enum class Floor { plane, box, cylinder, trimesh, convex, heightfield };
 
 class RestsOn : public testing::TestWithParam<Floor> {};
 
@@ -115,6 +115,11 @@ constexpr dReal kSlab[] = {-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1,
                            -1, -1, 0,  1, -1, 0,  -1, 1, 0,  1, 1, 0};
 constexpr dTriIndex kSlabTriangle[] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
                                        2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+constexpr dReal kSlabPlane[] = {1, 0,  0, 1, -1, 0, 0, 1, 0, 1, 0,  1,
+                                0, -1, 0, 1, 0,  0, 1, 0, 0, 0, -1, 1};
+constexpr unsigned kSlabPolygon[] = {4, 1, 3, 7, 5, 4, 0, 4, 6, 2, 4, 2, 6, 7, 3,
+                                     4, 0, 1, 5, 4, 4, 4, 5, 7, 6, 4, 0, 2, 3, 1};
+
 dReal flat(void*, int, int) { return 0; }
 
 TEST_P(RestsOn, AsOnAPlane) {
@@ -141,6 +146,9 @@ TEST_P(RestsOn, AsOnAPlane) {
     case Floor::trimesh:
         dCreateTriMesh(app.space, triangles, nullptr, nullptr, nullptr);
         break;
+    case Floor::convex:
+        dCreateConvex(app.space, kSlabPlane, 6, kSlab, 8, kSlabPolygon);
+        break;
     case Floor::heightfield:
         dGeomSetRotation(dCreateHeightfield(app.space, field, 1), upright);
         break;
@@ -166,7 +174,7 @@ TEST_P(RestsOn, AsOnAPlane) {
 
 INSTANTIATE_TEST_SUITE_P(Floors, RestsOn,
                          testing::Values(Floor::plane, Floor::box, Floor::cylinder, Floor::trimesh,
-                                         Floor::heightfield));
+                                         Floor::convex, Floor::heightfield));
 
 struct Throw {
     double mass_ratio; ///< rigid to soft

@@ -33,6 +33,9 @@ bool inside(const RigidShape& shape, const Vec3& p, double slack) {
                (p + Vec3(0, 0, s.z())).norm() <= s.x() + slack;
     case ShapeKind::cylinder:
         return p.head<2>().norm() <= s.x() + slack && std::fabs(p.z()) <= s.z() + slack;
+    case ShapeKind::convex:
+    case ShapeKind::probed:
+        break;
     }
     return false;
 }

@@ -59,9 +59,22 @@ TEST_F(Probe, FeelsATrimesh) {
     dGeomTriMeshDataDestroy(data);
 }
 
-TEST_F(Probe, FeelsAConvex) {
+TEST_F(Probe, ReadsCornersAndFacesOfAConvex) {
     const dGeomID convex = dCreateConvex(nullptr, kFacePlane, 6, kCorner, 8, kPolygon);
-    expect_cube(convex);
+    dQuaternion q;
+    dQFromAxisAndAngle(q, 1, 2, 3, 0.8);
+    dGeomSetQuaternion(convex, q);
+    dGeomSetPosition(convex, 0.3, -0.2, 1.1);
+    const auto corners = convex_corners(convex);
+    EXPECT_EQ(corners.size(), 8u);
+    for (const Vec3& corner : corners)
+        EXPECT_LT((corner.cwiseAbs() - Vec3::Constant(0.5)).norm(), 1e-14);
+    const auto faces = hull_faces(corners);
+    ASSERT_EQ(faces.size(), 6u);
+    for (const TangentPlane& face : faces) {
+        EXPECT_NEAR(face.normal.cwiseAbs().maxCoeff(), 1, 1e-14);
+        EXPECT_NEAR(face.offset, 0.5, 1e-14);
+    }
     dGeomDestroy(convex);
 }
 
