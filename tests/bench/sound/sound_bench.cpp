@@ -21,9 +21,8 @@ Shape make_torus(int n, int m) {
     const auto at = [=](int i, int j) { return (i % n) * m + j % m; };
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < m; ++j)
-            s.triangle.insert(s.triangle.end(),
-                              {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j),
-                               at(i + 1, j + 1), at(i, j + 1)});
+            s.triangle.insert(s.triangle.end(), {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j),
+                                                 at(i + 1, j + 1), at(i, j + 1)});
     return s;
 }
 
@@ -55,9 +54,9 @@ void substeps(benchmark::State& state, Radiation radiation, Sampling sampling, i
             scene.end_step(t);
     }
     state.counters["nodes"] = static_cast<double>(shape.node.size());
-    state.counters["share_of_13us"] = benchmark::Counter(
-        13e-6 * static_cast<double>(state.iterations()),
-        benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["share_of_13us"] =
+        benchmark::Counter(13e-6 * static_cast<double>(state.iterations()),
+                           benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 void BM_Substep(benchmark::State& state) {
