@@ -1,6 +1,6 @@
 #pragma once
 
-#if defined(__AVX2__) || defined(__AVX512F__)
+#if defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
@@ -37,6 +37,7 @@ struct Lane<1> {
 
     ODE_SOFT_LANE Value load(const double* p) { return *p; }
     ODE_SOFT_LANE Value fma(Value a, Value b, Value c) { return __builtin_fma(a, b, c); }
+    ODE_SOFT_LANE Value sqrt(Value a) { return __builtin_sqrt(a); }
     ODE_SOFT_LANE Value min(Value a, Value b) { return a < b ? a : b; }
     ODE_SOFT_LANE Value max(Value a, Value b) { return a > b ? a : b; }
 
@@ -88,6 +89,13 @@ struct Lane<2> : VectorLane<2> {
     };
 
     ODE_SOFT_LANE Value fma(Value a, Value b, Value c) { return a * b + c; }
+    ODE_SOFT_LANE Value sqrt(Value a) {
+#if defined(__SSE2__)
+        return _mm_sqrt_pd(a);
+#else
+        return Value{__builtin_sqrt(a[0]), __builtin_sqrt(a[1])};
+#endif
+    }
 
     ODE_SOFT_LANE Points gather(const double* base, const unsigned* at) {
         const double* p = base + at[0];
@@ -134,6 +142,7 @@ struct Lane<4> : VectorLane<4> {
     };
 
     ODE_SOFT_LANE Value fma(Value a, Value b, Value c) { return _mm256_fmadd_pd(a, b, c); }
+    ODE_SOFT_LANE Value sqrt(Value a) { return _mm256_sqrt_pd(a); }
 
     ODE_SOFT_LANE Points gather(const double* base, const unsigned* at) {
         return {{load(base + at[0]), load(base + at[1]), load(base + at[2]), load(base + at[3])}};
@@ -185,6 +194,8 @@ struct Lane<8> : VectorLane<8> {
     };
 
     ODE_SOFT_LANE Value fma(Value a, Value b, Value c) { return _mm512_fmadd_pd(a, b, c); }
+    // With all lanes: GCC 12 takes the plain form's undefined operand for a mistake of ours.
+    ODE_SOFT_LANE Value sqrt(Value a) { return _mm512_maskz_sqrt_pd(0xff, a); }
 
     ODE_SOFT_LANE Value pair(const double* p, const double* q) {
         return __builtin_shufflevector(_mm256_loadu_pd(p), _mm256_loadu_pd(q), 0, 1, 2, 3, 4, 5, 6,

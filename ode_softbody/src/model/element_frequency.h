@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 
 #include <cmath>
 
@@ -12,22 +11,11 @@ namespace ode::soft {
 class ElementFrequency {
 public:
     /// @param k  M_e^-1/2 K_e M_e^-1/2 [1/s^2].
-    template <int kSize>
-    void include(const Eigen::Matrix<double, kSize, kSize>& k) {
-        // Most elements are no worse than the worst so far, and a Cholesky factor proves it at a
-        // fiftieth of an eigenvalue's price: bound I - K is positive definite.
-        using Square = Eigen::Matrix<double, kSize, kSize>;
-        if (Eigen::LLT<Square>(bound_ * Square::Identity() - k).info() == Eigen::Success)
-            return;
-        const double largest = Eigen::SelfAdjointEigenSolver<Square>(k, Eigen::EigenvaluesOnly)
-                                   .eigenvalues()[kSize - 1];
-        bound_ = largest * (1 + kMargin);
-    }
+    void include(const Eigen::MatrixXd& k);
 
     double value() const { return std::sqrt(bound_); } ///< [rad/s]
 
 private:
-    static constexpr double kMargin = 1e-3; ///< so that equal elements pass the proof
     double bound_ = 0;
 };
 

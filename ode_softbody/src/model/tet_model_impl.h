@@ -94,14 +94,14 @@ double TetModel<Law, Packs>::max_frequency_bound() const {
         for (std::size_t e = 0; e < block.elements; ++e) {
             const auto element = packs_.element(block, e);
             const auto share = packs_.lumped_volume(element);
-            Eigen::Matrix<double, kSize, kSize> k = Eigen::Matrix<double, kSize, kSize>::Zero();
+            Eigen::MatrixXd k = Eigen::MatrixXd::Zero(kSize, kSize);
             for (int q = 0; q < element.kPoints; ++q)
                 for (int a = 0; a < element.kNodes; ++a)
                     for (int b = 0; b < element.kNodes; ++b)
                         k.template block<3, 3>(3 * a, 3 * b) +=
                             element.weight[q] / std::sqrt(share[a] * share[b]) *
                             tangent.block(element.gradient[q].row(a), element.gradient[q].row(b));
-            bound.include<kSize>(k / block.solid.density);
+            bound.include(k / block.solid.density);
         }
     }
     return bound.value();

@@ -16,11 +16,26 @@ using Ints [[gnu::vector_size(16)]] = std::int32_t;
 
 constexpr int kTaps = 16;
 constexpr int kBefore = 7;
-constexpr int kPhases = 128;
+constexpr int kPhases = 256;
 
 inline Lane load(const double* p) { return *reinterpret_cast<const Loose*>(p); }
 inline void store(double* p, const Lane& v) { *reinterpret_cast<Loose*>(p) = v; }
 inline Lane fill(double v) { return Lane{v, v, v, v}; }
+
+/// As wide as the machine is, for loops over contiguous numbers.
+#if defined(__AVX512F__)
+constexpr int kWide = 8;
+#elif defined(__AVX2__)
+constexpr int kWide = 4;
+#else
+constexpr int kWide = 2;
+#endif
+using Wide [[gnu::vector_size(8 * kWide)]] = double;
+using LooseWide [[gnu::vector_size(8 * kWide), gnu::aligned(8), gnu::may_alias]] = double;
+
+inline Wide load_wide(const double* p) { return *reinterpret_cast<const LooseWide*>(p); }
+inline void store_wide(double* p, const Wide& v) { *reinterpret_cast<LooseWide*>(p) = v; }
+inline Wide fill_wide(double v) { return v - Wide{}; }
 
 inline Lane root(const Lane& v) {
 #if defined(__AVX2__)
@@ -106,21 +121,21 @@ void areas(int triangles, const int* triangle, const double* point, double* area
 
 void mix(int nodes, int rows, const double* const* row, const double* weight, double* const* flow) {
     int i = 0;
-    for (; i + 8 <= nodes; i += 8) {
-        Lane a[4] = {};
-        Lane b[4] = {};
+    for (; i + 2 * kWide <= nodes; i += 2 * kWide) {
+        Wide a[4] = {};
+        Wide b[4] = {};
         for (int r = 0; r < rows; ++r) {
-            const Lane va = load(row[r] + i);
-            const Lane vb = load(row[r] + i + 4);
+            const Wide va = load_wide(row[r] + i);
+            const Wide vb = load_wide(row[r] + i + kWide);
             for (int j = 0; j < 4; ++j) {
-                const Lane w = fill(weight[4 * r + j]);
+                const Wide w = fill_wide(weight[4 * r + j]);
                 a[j] += w * va;
                 b[j] += w * vb;
             }
         }
         for (int j = 0; j < 4; ++j) {
-            store(flow[j] + i, a[j]);
-            store(flow[j] + i + 4, b[j]);
+            store_wide(flow[j] + i, a[j]);
+            store_wide(flow[j] + i + kWide, b[j]);
         }
     }
     for (; i < nodes; i += 4) {
@@ -136,10 +151,28 @@ void mix(int nodes, int rows, const double* const* row, const double* weight, do
 /// Retarded times and weighted values of four nodes at one ear.
 struct Arrivals {
     std::int32_t whole[4]; ///< delay rounded down [samples]
-    std::int32_t phase[4]; ///< row of the splat table
-    double rest[4];        ///< fraction of the way to the next row
-    double value[4];
+    std::int32_t phase[4]; ///< nearest row of the splat table
+    double weight[3][4];   ///< of the rows before it, at it and behind it
 };
+
+/// What all nodes have in common at one ear.
+struct Aim {
+    Lane centre;
+    Lane mach;
+    Lane rest;  ///< 1 - |mach|^2
+    Lane scale; ///< 1 / rest
+    Lane gain;
+    Lane least;
+    Lane most;
+};
+
+inline Aim aim(const SplatEar& ear) {
+    const Lane mach = load(ear.mach);
+    const double rest = 1.0 - (mach[0] * mach[0] + mach[1] * mach[1] + mach[2] * mach[2]);
+    return {load(ear.position), mach,           fill(rest),
+            fill(1.0 / rest),   fill(ear.gain), fill(ear.min_delay),
+            fill(ear.max_delay)};
+}
 
 template <Facing kFacing>
 inline Lane facing(const Lane& projection, const Lane& area, const Lane& distance) {
@@ -158,23 +191,21 @@ inline Lane facing(const Lane& projection, const Lane& area, const Lane& distanc
 }
 
 template <Facing kFacing>
-inline void arrive(const SplatSurface& surface, const SplatEar& ear, int i, Lane& latest,
+inline void arrive(const SplatSurface& surface, const Aim& ear, int i, Lane& latest,
                    Arrivals& out) {
-    const Lane centre = load(ear.position);
-    const Lane mach = load(ear.mach);
     Lane offset[4];
     for (int k = 0; k < 4; ++k)
-        offset[k] = centre - load(surface.position + 4 * (i + k));
+        offset[k] = ear.centre - load(surface.position + 4 * (i + k));
     const Lane square = sums(offset[0] * offset[0], offset[1] * offset[1], offset[2] * offset[2],
                              offset[3] * offset[3]) +
                         load(surface.softening + i);
-    const Lane ahead = sums(offset[0] * mach, offset[1] * mach, offset[2] * mach, offset[3] * mach);
+    const Lane ahead = sums(offset[0] * ear.mach, offset[1] * ear.mach, offset[2] * ear.mach,
+                            offset[3] * ear.mach);
     // Wave from x at time 0 meets an ear that starts at x + offset and moves with u = mach c:
     // |offset + u T| = c T. distance = c T.
-    const double rest = 1.0 - (mach[0] * mach[0] + mach[1] * mach[1] + mach[2] * mach[2]);
-    const Lane distance = (ahead + root(ahead * ahead + fill(rest) * square)) / fill(rest);
+    const Lane distance = (ahead + root(ahead * ahead + ear.rest * square)) * ear.scale;
 
-    Lane value = fill(ear.gain) * load(surface.flow + i) / distance;
+    Lane value = ear.gain * load(surface.flow + i) / distance;
     if constexpr (kFacing != Facing::kAll) {
         Lane area[4];
         for (int k = 0; k < 4; ++k)
@@ -187,21 +218,23 @@ inline void arrive(const SplatSurface& surface, const SplatEar& ear, int i, Lane
     }
 
     // Comparisons with NaN are false: a body that has gone to pieces is silent, not contagious.
-    const Lane least = fill(ear.min_delay);
-    const Lane most = fill(ear.max_delay);
     constexpr double kSane = 1e20; // [m^2/s]
     const Lane delay = distance * fill(surface.samples_per_metre);
     const Bits sane =
-        (delay >= least) & (delay <= most) & (value < fill(kSane)) & (value > fill(-kSane));
-    const Lane when = sane ? delay : least;
+        (delay >= ear.least) & (delay <= ear.most) & (value < fill(kSane)) & (value > fill(-kSane));
+    const Lane when = sane ? delay : ear.least;
     value = sane ? value : Lane{};
     latest = sane & (when > latest) ? when : latest;
 
     const Ints whole = __builtin_convertvector(when, Ints);
     const Lane place = (when - __builtin_convertvector(whole, Lane)) * fill(kPhases);
-    const Ints phase = __builtin_convertvector(place, Ints);
-    store(out.rest, place - __builtin_convertvector(phase, Lane));
-    store(out.value, value);
+    const Ints phase = __builtin_convertvector(place + fill(0.5), Ints);
+    // Lagrange's parabola through three rows.
+    const Lane u = place - __builtin_convertvector(phase, Lane);
+    const Lane half = fill(0.5) * u * value;
+    store(out.weight[0], half * (u - fill(1.0)));
+    store(out.weight[1], value - u * u * value);
+    store(out.weight[2], half * (u + fill(1.0)));
     for (int k = 0; k < 4; ++k) {
         out.whole[k] = whole[k];
         out.phase[k] = phase[k];
@@ -212,29 +245,26 @@ template <Facing kFacing>
 double splat(const SplatSurface& surface, const SplatEar* ear, int ears) {
     constexpr int kMaxEars = 2;
     Lane latest{};
+    Aim aims[kMaxEars];
+    for (int e = 0; e < ears; ++e)
+        aims[e] = aim(ear[e]);
     for (int i = 0; i < surface.nodes; i += 4) {
         Arrivals arrival[kMaxEars];
         for (int e = 0; e < ears; ++e)
-            arrive<kFacing>(surface, ear[e], i, latest, arrival[e]);
+            arrive<kFacing>(surface, aims[e], i, latest, arrival[e]);
         for (int k = 0; k < 4; ++k) {
             for (int e = 0; e < ears; ++e) {
                 const Arrivals& a = arrival[e];
                 double* cell =
                     ear[e].ring[k & 1] + ((ear[e].sample + a.whole[k] - kBefore) & ear[e].mask);
                 const double* row = surface.table + static_cast<std::int64_t>(a.phase[k]) * kTaps;
-                // Lagrange's cubic through the rows at -1, 0, 1, 2.
-                const double u = a.rest[k];
-                const double v = a.value[k];
-                const double outer = v * u * (1.0 - u) * (1.0 / 6.0);
-                const double inner = v * 0.5 * (1.0 + u) * (2.0 - u);
-                const Lane w0 = fill(outer * (u - 2.0));
-                const Lane w1 = fill(inner * (1.0 - u));
-                const Lane w2 = fill(inner * u);
-                const Lane w3 = fill(-outer * (1.0 + u));
-                for (int j = 0; j < kTaps; j += 4)
-                    store(cell + j,
-                          load(cell + j) + (w0 * load(row - kTaps + j) + w1 * load(row + j)) +
-                              (w2 * load(row + kTaps + j) + w3 * load(row + 2 * kTaps + j)));
+                const Wide before = fill_wide(a.weight[0][k]);
+                const Wide at = fill_wide(a.weight[1][k]);
+                const Wide behind = fill_wide(a.weight[2][k]);
+                for (int j = 0; j < kTaps; j += kWide)
+                    store_wide(cell + j,
+                               (load_wide(cell + j) + before * load_wide(row - kTaps + j)) +
+                                   (at * load_wide(row + j) + behind * load_wide(row + kTaps + j)));
             }
         }
     }

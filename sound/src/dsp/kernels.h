@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 namespace ode::sound {
 
@@ -65,11 +66,11 @@ struct Kernels {
     double (*splat[3])(const SplatSurface& surface, const SplatEar* ear, int ears);
 };
 
-/// The widest set that this processor runs. ODE_SOUND_ISA=baseline in the environment forces the
-/// portable one. Sets differ in rounding; one set gives the same bits every time.
+/// The widest set that this processor runs, or the one that the environment variable ODE_SOUND_ISA
+/// (baseline, avx2, avx512) names. Sets differ in rounding; one set gives the same bits every time.
 const Kernels& kernels() noexcept;
 
-/// All sets that this processor runs, the portable one first; null-terminated.
-const Kernels* const* all_kernels() noexcept;
+/// All sets that this processor runs, the portable one first.
+std::span<const Kernels* const> all_kernels() noexcept;
 
 } // namespace ode::sound

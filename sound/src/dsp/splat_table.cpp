@@ -4,10 +4,10 @@
 
 namespace ode::sound {
 
-SplatTable::SplatTable() : row_(static_cast<std::size_t>(kPhases + 4) * kTaps) {
+SplatTable::SplatTable() : row_(static_cast<std::size_t>(kPhases + 3) * kTaps) {
     constexpr double kAttenuation = 140.0; // what 16 taps and a transition of 0.583 allow
     const double beta = kaiser_beta(kAttenuation);
-    for (int p = -1; p <= kPhases + 2; ++p) {
+    for (int p = -1; p <= kPhases + 1; ++p) {
         double* row = row_.data() + static_cast<std::size_t>(p + 1) * kTaps;
         double sum = 0.0;
         for (int j = 0; j < kTaps; ++j) {

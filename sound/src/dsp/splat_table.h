@@ -18,10 +18,10 @@ public:
     static constexpr int kTaps = 16;
     static constexpr int kBefore = 7; ///< taps before the sample that the arrival rounds down to
     static constexpr int kAfter = kTaps - 1 - kBefore;
-    static constexpr int kPhases = 128; ///< 16 KB: stays in the first-level cache
+    static constexpr int kPhases = 256;
 
     SplatTable();
-    /// Row 0; one row before it, kPhases + 2 behind.
+    /// Row 0; one row before it, kPhases + 1 behind.
     const double* rows() const noexcept { return row_.data() + kTaps; }
 
 private:

@@ -27,7 +27,7 @@ struct Settings {
     double send_rate() const noexcept;
 
     /// First frame that waves from sources after `time` [s] could still reach: frames before it may
-    /// be read. This bounds latency: 2.0 ms at 48 kHz for "sinc", 0.25 ms for "paper".
+    /// be read. This bounds latency: 2.1 ms at 48 kHz for "sinc", 0.25 ms for "paper".
     std::int64_t first_open_frame(double time) const noexcept;
 };
 

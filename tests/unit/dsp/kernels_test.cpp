@@ -1,0 +1,183 @@
+#include "dsp/kernels.h"
+
+#include "dsp/splat_table.h"
+#include "dsp/storage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace ode::sound {
+namespace {
+
+constexpr int kNodes = 44; // not a multiple of any wide width but four
+
+double noise(int i) { return std::sin(12.9898 * i) * 3.7 - std::cos(3.1 * i * i); }
+
+AlignedVector points(int seed) {
+    AlignedVector p(4 * kNodes);
+    for (int i = 0; i < 4 * kNodes; ++i)
+        p[static_cast<std::size_t>(i)] = i % 4 == 3 ? 0.0 : noise(i + seed);
+    return p;
+}
+
+class EveryKernel : public testing::TestWithParam<const Kernels*> {
+protected:
+    const Kernels& kernel = *GetParam();
+};
+
+TEST_P(EveryKernel, DotIsASum) {
+    const AlignedVector a = points(1), b = points(2);
+    double expected = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        expected += a[i] * b[i];
+    EXPECT_NEAR(kernel.dot(a.data(), b.data(), 4 * kNodes), expected, 1e-11);
+}
+
+TEST_P(EveryKernel, GatherProjectsDisplacementAndKeepsPlace) {
+    AlignedVector now = points(3), last = points(4);
+    const AlignedVector area = points(5), before = last;
+    now[3] = std::nan(""); // padding is anything
+    std::vector<int> node(kNodes);
+    for (int i = 0; i < kNodes; ++i)
+        node[static_cast<std::size_t>(i)] = (7 * i) % kNodes;
+    AlignedVector volume(kNodes);
+    kernel.gather(kNodes, node.data(), now.data(), 4, area.data(), last.data(), volume.data());
+    for (std::size_t i = 0; i < kNodes; ++i) {
+        const std::size_t from = 4 * static_cast<std::size_t>(node[i]);
+        double expected = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            expected += area[4 * i + k] * (now[from + k] - before[4 * i + k]);
+            EXPECT_EQ(last[4 * i + k], now[from + k]);
+        }
+        EXPECT_EQ(last[4 * i + 3], 0.0);
+        EXPECT_NEAR(volume[i], expected, 1e-13 * 100.0);
+    }
+}
+
+TEST_P(EveryKernel, MixIsAMatrixProduct) {
+    constexpr int kRows = 5;
+    std::vector<AlignedVector> row;
+    const double* at[kRows];
+    std::vector<double> weight;
+    for (int r = 0; r < kRows; ++r) {
+        row.push_back(points(10 + r));
+        for (int j = 0; j < 4; ++j)
+            weight.push_back(noise(100 + 4 * r + j));
+    }
+    for (std::size_t r = 0; r < kRows; ++r)
+        at[r] = row[r].data();
+    AlignedVector out(4 * kNodes);
+    double* flow[4];
+    for (int j = 0; j < 4; ++j)
+        flow[j] = out.data() + j * kNodes;
+    kernel.mix(kNodes, kRows, at, weight.data(), flow);
+    for (std::size_t j = 0; j < 4; ++j)
+        for (std::size_t i = 0; i < kNodes; ++i) {
+            double expected = 0.0;
+            for (std::size_t r = 0; r < kRows; ++r)
+                expected += weight[4 * r + j] * row[r][i];
+            EXPECT_NEAR(flow[j][i], expected, 1e-12);
+        }
+}
+
+/// One node of flow 1 m^3/s at the origin; three silent companions.
+struct Point {
+    AlignedVector position = AlignedVector(16, 0.0);
+    AlignedVector area = AlignedVector(16, 0.0);
+    AlignedVector softening = AlignedVector(4, 1e-12);
+    AlignedVector flow = AlignedVector(4, 0.0);
+    std::vector<double> ring[2];
+    SplatEar ear{};
+
+    explicit Point(double x) {
+        flow[0] = 1.0;
+        for (auto& r : ring)
+            r.assign(1024 + 16, 0.0);
+        ear = {{x, 0.0, 0.0, 0.0},
+               {0.0, 0.0, 0.0, 0.0},
+               {ring[0].data(), ring[1].data()},
+               1023,
+               100,
+               1.0,
+               0.0,
+               500.0};
+    }
+    SplatSurface surface() const {
+        return {4,           position.data(), area.data(),         softening.data(),
+                flow.data(), 280.0,           splat_table().rows()};
+    }
+    double sum() const {
+        double s = 0.0;
+        for (const auto& r : ring)
+            for (const double v : r)
+                s += v;
+        return s;
+    }
+    double centroid() const {
+        double s = 0.0;
+        for (const auto& r : ring)
+            for (std::size_t i = 0; i < r.size(); ++i)
+                s += static_cast<double>(i) * r[i];
+        return s / sum();
+    }
+};
+
+TEST_P(EveryKernel, SplatLandsAtTheRetardedTime) {
+    for (const double x : {0.1, 0.5, 0.7301, 1.2345}) {
+        Point p(x);
+        const double last = kernel.splat[0](p.surface(), &p.ear, 1);
+        EXPECT_NEAR(last, 280.0 * x, 1e-6);
+        EXPECT_NEAR(p.sum(), 1.0 / x, 1e-9 / x); // rows sum to one
+        EXPECT_NEAR(p.centroid(), 100.0 + 280.0 * x, 2e-3);
+    }
+}
+
+TEST_P(EveryKernel, SplatAimsAtWhereTheEarWillBe) {
+    Point p(0.5);
+    p.ear.mach[0] = 0.2; // flees: c T = 0.5 + 0.2 c T
+    kernel.splat[0](p.surface(), &p.ear, 1);
+    EXPECT_NEAR(p.sum(), 0.8 / 0.5, 1e-6);
+    EXPECT_NEAR(p.centroid(), 100.0 + 280.0 * 0.5 / 0.8, 2e-3);
+}
+
+TEST_P(EveryKernel, SplatDropsWhatCannotBeKept) {
+    for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300}) {
+        Point flow(0.5);
+        flow.flow[0] = bad;
+        kernel.splat[0](flow.surface(), &flow.ear, 1);
+        EXPECT_EQ(flow.sum(), 0.0);
+        Point place(0.5);
+        place.position[1] = bad;
+        kernel.splat[0](place.surface(), &place.ear, 1);
+        EXPECT_EQ(place.sum(), 0.0);
+    }
+    Point far(100.0);
+    EXPECT_EQ(kernel.splat[0](far.surface(), &far.ear, 1), 0.0);
+    EXPECT_EQ(far.sum(), 0.0);
+}
+
+TEST_P(EveryKernel, FacingWeighsByTheNormal) {
+    for (const double cosine : {1.0, 0.5, 0.01, -0.01, -0.5}) {
+        for (const Facing facing : {Facing::kVisible, Facing::kCosine}) {
+            Point p(0.5);
+            p.area[0] = 3e-4 * cosine;
+            p.area[1] = 3e-4 * std::sqrt(1.0 - cosine * cosine);
+            kernel.splat[static_cast<int>(facing)](p.surface(), &p.ear, 1);
+            const double expected = facing == Facing::kCosine
+                                        ? std::max(cosine, 0.0)
+                                        : std::clamp(0.5 + 10.0 * cosine, 0.0, 1.0);
+            EXPECT_NEAR(p.sum(), 2.0 * expected, 1e-9);
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sets, EveryKernel,
+                         testing::ValuesIn(all_kernels().begin(), all_kernels().end()),
+                         [](const auto& set) { return std::string(set.param->name); });
+
+} // namespace
+} // namespace ode::sound
