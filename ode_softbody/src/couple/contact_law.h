@@ -2,6 +2,9 @@
 
 #include "base/types.h"
 
+#include "couple/conserving_spring.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace ode::soft {
@@ -22,6 +25,33 @@ constexpr double kStiffnessShare = 0.1 * 3.24; ///< of k dt^2 / m
 constexpr double kDampingShare = 0.075;        ///< of c dt / m
 
 constexpr double kTangential = 0.7; ///< tangential stiffness to normal, near Mindlin's for nu = 0.3
+
+/// Normal force of one contact over a substep: a spring that keeps energy and a dashpot that can
+/// only take it. Speeds are of approach.
+struct NormalContact {
+    double stiffness;  ///< [N/m]
+    double damping;    ///< [N s/m]
+    double compliance; ///< inverse effective mass of both sides along the normal [1/kg]
+    double depth;      ///< now [m]
+    double speed;      ///< half a substep ago [m/s]
+    double ahead;      ///< in half a substep, if it weren't for this contact [m/s]
+
+    /// @return [N], >= 0
+    double press(double dt) const noexcept {
+        const double before = depth - dt * speed;
+        const double free = depth + dt * ahead;
+        const double g = dt * dt * compliance;
+        const double spring = conserving_press(stiffness, g, before, free);
+        if (spring == 0)
+            return 0;
+        const double mean_speed = (free - g * spring - before) / (2 * dt);
+        return std::max(0.0, spring + damping * mean_speed / (1 + dt * compliance * damping / 2));
+    }
+};
+
+// A point is looked at once it may touch within this many times the way that its present speed
+// makes in a substep: forces may speed it up.
+constexpr double kForesight = 4;
 
 /// Shortens v to at most `most`. @return whether it had to.
 inline bool clamp_length(Vec3& v, double most) noexcept {

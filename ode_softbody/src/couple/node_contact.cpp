@@ -52,6 +52,7 @@ void NodeContact::begin_step(const RigidShape& shape, const ContactLaw& law,
     }
     shape_ = shape;
     law_ = law;
+    inverse_mass_ = inverse_mass;
     if (shape.kind == ShapeKind::convex) {
         if (corners_.empty()) {
             corners_ = convex_corners(shape.probe);
@@ -158,34 +159,37 @@ ContactTally NodeContact::add_force(const NodeArray& position, const NodeArray& 
     }
     look_again_in_ -= dt;
     touch_.clear();
+    bearing_ = 0;
     softening_ = 1;
     double load = 0;
     if (shape_.kind == ShapeKind::probed)
-        load = find_touching_planes(position, rigid, dt);
+        load = find_touching_planes(position, velocity, rigid, dt);
     else if (!candidate_.empty())
         load = with_distance(shape_.kind, [&](auto distance_of) {
-            return find_touching(distance_of, position, rigid, dt);
+            return find_touching(distance_of, position, velocity, rigid, dt);
         });
     tally.tests += candidate_.size();
     if (samples_.is_near())
-        load += samples_.find_touching(position, shape_.pose.in(rigid.motion().pose), rigid, dt,
-                                       tally.tests);
-    tally.bearing = touch_.size() + samples_.bearing();
-    if (tally.bearing != 0) {
+        load += samples_.find_touching(position, velocity, rigid, shape_.pose, dt, tally.tests);
+    if (!touch_.empty() || samples_.is_touching()) {
         softening_ = rigid.soften(load);
-        push(position, velocity, rigid, force);
-        samples_.push(velocity, softening_, dt, rigid, force);
+        push(position, velocity, rigid, dt, force);
+        bearing_ += samples_.push(velocity, inverse_mass_, softening_, dt, rigid, force);
     }
+    tally.bearing = bearing_;
     return tally;
 }
 
 template <class Distance>
 double NodeContact::find_touching(Distance distance_of, const NodeArray& position,
-                                  const RigidShadow& rigid, double dt) noexcept {
-    const Pose pose = shape_.pose.in(rigid.motion().pose);
+                                  const NodeArray& velocity, const RigidShadow& rigid,
+                                  double dt) noexcept {
+    const RigidMotion& motion = rigid.motion();
+    const Pose pose = shape_.pose.in(motion.pose);
     double load = 0;
     for (const int i : candidate_) {
-        const Vec3 x = position[index(nodes_.node[index(i)])];
+        const std::size_t n = index(nodes_.node[index(i)]);
+        const Vec3 x = position[n];
         const Vec3 local = pose.to_local(x);
         SurfaceDistance gap = distance_of(shape_, local);
         Vec3& entered = entered_[index(i)];
@@ -193,7 +197,9 @@ double NodeContact::find_touching(Distance distance_of, const NodeArray& positio
             gap = {entered.dot(local) - shape_.support(entered), entered};
         if (gap.distance >= 0) {
             anchored_[index(i)] = 0;
-            continue;
+            const double way = kForesight * dt * (velocity[n] - motion.velocity_at(x)).norm();
+            if (gap.distance >= way)
+                continue;
         }
         entered = gap.normal;
         const Vec3 normal = pose.rotation * gap.normal;
@@ -204,20 +210,23 @@ double NodeContact::find_touching(Distance distance_of, const NodeArray& positio
     return load;
 }
 
-double NodeContact::find_touching_planes(const NodeArray& position, const RigidShadow& rigid,
-                                         double dt) noexcept {
-    const Pose pose = shape_.pose.in(rigid.motion().pose);
+double NodeContact::find_touching_planes(const NodeArray& position, const NodeArray& velocity,
+                                         const RigidShadow& rigid, double dt) noexcept {
+    const RigidMotion& motion = rigid.motion();
+    const Pose pose = shape_.pose.in(motion.pose);
     double load = 0;
     for (std::size_t c = 0; c < candidate_.size(); ++c) {
         const std::size_t i = index(candidate_[c]);
-        const Vec3 x = position[index(nodes_.node[i])];
+        const std::size_t n = index(nodes_.node[i]);
+        const Vec3 x = position[n];
         const Vec3 local = pose.to_local(x);
+        const double way = kForesight * dt * (velocity[n] - motion.velocity_at(x)).norm();
         const Planes& planes = planes_[c];
         double deepest = 0;
         for (int k = 0; k < planes.count; ++k) {
             const TangentPlane& plane = planes.plane[index(k)];
             const double depth = plane.offset - plane.normal.dot(local);
-            if (depth <= 0)
+            if (depth <= -way)
                 continue;
             const Vec3 normal = pose.rotation * plane.normal;
             load += (stiffness_[i] * dt + 2 * damping_[i]) * dt * rigid.compliance(x, normal);
@@ -233,10 +242,9 @@ double NodeContact::find_touching_planes(const NodeArray& position, const RigidS
 }
 
 void NodeContact::push(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid,
-                       NodeArray& force) noexcept {
+                       double dt, NodeArray& force) noexcept {
     const RigidMotion& motion = rigid.motion();
     const Pose pose = shape_.pose.in(motion.pose);
-    Wrench reaction;
     for (const Touch& touch : touch_) {
         const std::size_t i = index(touch.node);
         const std::size_t n = index(nodes_.node[i]);
@@ -245,13 +253,25 @@ void NodeContact::push(const NodeArray& position, const NodeArray& velocity, Rig
         const double k = softening_ * stiffness_[i];
         const double c = softening_ * damping_[i];
         const double parting = slip.dot(touch.normal);
-        const double press = std::fmax(0, k * touch.depth - c * parting);
-
+        const double lightness = inverse_mass_[n];
+        const Vec3 ahead =
+            velocity[n] + dt * lightness * force[n] - rigid.velocity_ahead(x, dt);
+        const double press =
+            NormalContact{.stiffness = k,
+                          .damping = c,
+                          .compliance = lightness + rigid.compliance(x, touch.normal),
+                          .depth = touch.depth,
+                          .speed = -parting,
+                          .ahead = -ahead.dot(touch.normal)}
+                .press(dt);
+        if (press == 0)
+            continue;
+        ++bearing_;
         if (!anchored_[i]) {
             anchored_[i] = 1;
             anchor_[i] = touch.local;
         }
-        const double grip = press > 0 ? law_.friction * press : 0; // friction may be infinite
+        const double grip = law_.friction * press;
         Vec3 stretch = touch.local - anchor_[i];
         stretch -= touch.across.dot(stretch) * touch.across;
         if (clamp_length(stretch, grip / (kTangential * k)))
@@ -262,10 +282,8 @@ void NodeContact::push(const NodeArray& position, const NodeArray& velocity, Rig
         f += press * touch.normal;
 
         force[n] += f;
-        reaction.force -= f;
-        reaction.torque -= (x - motion.pose.position).cross(f);
+        rigid.add({-f, -(x - motion.pose.position).cross(f)});
     }
-    rigid.add(reaction);
 }
 
 } // namespace ode::soft

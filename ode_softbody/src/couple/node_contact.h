@@ -25,10 +25,11 @@ struct ContactTally {
 /// shape's samples with its triangles (SampleContact). Kept from step to step as long as the pair
 /// stays near, because friction has a memory.
 ///
-/// Normal force of node i: max(0, k_i depth + c_i approach speed), k_i = kappa A_i. Depth is that
-/// of the closest surface point, continuous over edges and corners, so the force has a potential
-/// and needs no cap on depth. Explicit stability bounds k_i by kStiffnessShare of what the node's
-/// mass bears at this substep, and c_i likewise; a light rigid body lowers both
+/// Normal force of node i: a one-sided spring k_i = kappa A_i by its discrete gradient, so that an
+/// impact keeps its energy at any substep, and a dashpot (NormalContact). Depth is that of the
+/// closest surface point, continuous over edges and corners, so the force has a potential and needs
+/// no cap on depth. Friction is explicit: its stability bounds k_i by kStiffnessShare of what the
+/// node's mass bears at this substep, and c_i likewise; a light rigid body lowers both
 /// (RigidShadow::softening).
 ///
 /// A node that is in stays on the side where it came in: the far side of a thin shape doesn't push
@@ -53,13 +54,14 @@ public:
     void begin_step(const RigidShape& shape, const ContactLaw& law,
                     std::span<const double> inverse_mass, double dt);
 
-    /// Adds contact forces to `force` [N] and their reaction to `rigid`. Looks for nodes near the
+    /// Adds contact forces to `force` [N], which holds everything else that acts on the nodes, and
+    /// their reaction to `rigid`. Looks for nodes near the
     /// shape anew whenever they may have come within reach since it looked last.
     ContactTally add_force(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid,
                            double dt, NodeArray& force) noexcept;
 
     /// Some node bore force in the last substep.
-    bool bearing() const noexcept { return !touch_.empty() || samples_.bearing() != 0; }
+    bool bearing() const noexcept { return bearing_ != 0; }
     /// What a light body's shadow asked of the contact in the last substep, to be handed to the
     /// shadow of the next step; 1 when nothing bears.
     double softening() const noexcept { return softening_; }
@@ -84,11 +86,11 @@ private:
 
     /// Fills touch_. @return what the contacts ask of the rigid body's stability.
     template <class Distance>
-    double find_touching(Distance distance_of, const NodeArray& position, const RigidShadow& rigid,
-                         double dt) noexcept;
-    double find_touching_planes(const NodeArray& position, const RigidShadow& rigid,
-                                double dt) noexcept;
-    void push(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid,
+    double find_touching(Distance distance_of, const NodeArray& position,
+                         const NodeArray& velocity, const RigidShadow& rigid, double dt) noexcept;
+    double find_touching_planes(const NodeArray& position, const NodeArray& velocity,
+                                const RigidShadow& rigid, double dt) noexcept;
+    void push(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid, double dt,
               NodeArray& force) noexcept;
 
     const SurfaceNodes& nodes_;
@@ -112,7 +114,9 @@ private:
     };
     std::unique_ptr<SurfaceProbe> probe_; ///< of a probed shape
     std::vector<Planes> planes_;
+    std::span<const double> inverse_mass_; ///< of every mesh node [1/kg]; borrowed for the step
     double look_again_in_ = 0; ///< [s]
+    std::size_t bearing_ = 0;
     double softening_ = 1;     ///< in the last substep
 };
 

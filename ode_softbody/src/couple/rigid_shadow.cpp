@@ -71,6 +71,14 @@ void RigidShadow::add(const Wrench& reaction) noexcept {
     touched_ = true;
 }
 
+Vec3 RigidShadow::velocity_ahead(const Vec3& world, double dt) const noexcept {
+    const Vec3 lever = world - motion_.pose.position;
+    const Vec3 force = external_.force + contact_.force;
+    const Vec3 torque = external_.torque + contact_.torque;
+    return motion_.velocity + dt * inverse_mass_ * force +
+           (motion_.spin + dt * (inverse_inertia_world_ * torque)).cross(lever);
+}
+
 double RigidShadow::compliance(const Vec3& point, const Vec3& normal) const noexcept {
     const Vec3 lever = (point - motion_.pose.position).cross(normal);
     return inverse_mass_ + lever.dot(inverse_inertia_world_ * lever);

@@ -48,6 +48,10 @@ public:
     /// A contact force at a world point, until the next advance().
     void add(const Wrench& reaction) noexcept;
 
+    /// Velocity of a point of the body after the kick to come, as far as it is known by now: with
+    /// external forces and the contacts added so far [m/s].
+    Vec3 velocity_ahead(const Vec3& world, double dt) const noexcept;
+
     /// What a force along a unit normal at a world point meets: 1/m + (r x n).I^-1.(r x n) [1/kg];
     /// 0 when the body can't be moved.
     double compliance(const Vec3& point, const Vec3& normal) const noexcept;

@@ -100,9 +100,10 @@ SampleContact::Closest SampleContact::find_closest(const Near& near, const Vec3&
     return best;
 }
 
-double SampleContact::find_touching(const NodeArray& position, const Pose& shape,
-                                    const RigidShadow& rigid, double dt,
+double SampleContact::find_touching(const NodeArray& position, const NodeArray& velocity,
+                                    const RigidShadow& rigid, const Pose& in_body, double dt,
                                     unsigned long& tests) noexcept {
+    const Pose shape = in_body.in(rigid.motion().pose);
     double load = 0;
     touch_.clear();
     for (const Near& near : near_) {
@@ -123,7 +124,8 @@ double SampleContact::find_touching(const NodeArray& position, const Pose& shape
         if (depth <= 0) {
             state = State{};
             state.was_outside = true;
-            continue;
+            if (depth <= -kForesight * dt * slip_of(closest, velocity, rigid.motion()).norm())
+                continue;
         }
         if (!state.bears && !state.was_outside && !(depth <= kEntryDepth * surface_.mean_edge))
             continue;
@@ -135,7 +137,6 @@ double SampleContact::find_touching(const NodeArray& position, const Pose& shape
             state.stretch.setZero();
             state.stiffness = k;
         }
-        state.bears = true;
         state.stiffness = std::fmin(state.stiffness, k);
         // Very near the surface the direction is lost in rounding; the feature still has one.
         const bool clear = distance > 1e-9 * surface_.mean_edge;
@@ -148,10 +149,20 @@ double SampleContact::find_touching(const NodeArray& position, const Pose& shape
     return load;
 }
 
-void SampleContact::push(const NodeArray& velocity, double softening, double dt, RigidShadow& rigid,
-                         NodeArray& force) noexcept {
+Vec3 SampleContact::slip_of(const Closest& closest, const NodeArray& velocity,
+                            const RigidMotion& motion) const noexcept {
+    Vec3 slip = motion.velocity_at(closest.at.point);
+    const auto& corner = surface_.triangle[index(closest.triangle)];
+    for (int i = 0; i < 3; ++i)
+        slip -= closest.at.weight[i] * velocity[index(corner[index(i)])];
+    return slip;
+}
+
+std::size_t SampleContact::push(const NodeArray& velocity, std::span<const double> inverse_mass,
+                                double softening, double dt, RigidShadow& rigid,
+                                NodeArray& force) noexcept {
     const RigidMotion& motion = rigid.motion();
-    Wrench reaction;
+    bearing_ = 0;
     for (const Touch& touch : touch_) {
         State& state = state_[index(touch.sample)];
         const auto& corner = surface_.triangle[index(touch.triangle)];
@@ -161,13 +172,30 @@ void SampleContact::push(const NodeArray& velocity, double softening, double dt,
         const double c =
             softening * std::fmin(state.stiffness * law_.damping, kDampingShare * light / dt_);
 
-        Vec3 slip = motion.velocity_at(touch.at.point); // of the rigid against the soft surface
-        for (int i = 0; i < 3; ++i)
-            slip -= weight[i] * velocity[index(corner[index(i)])];
+        // Of the rigid against the soft surface.
+        Vec3 slip = motion.velocity_at(touch.at.point);
+        Vec3 ahead = rigid.velocity_ahead(touch.at.point, dt);
+        double compliance = rigid.compliance(touch.at.point, state.normal);
+        for (int i = 0; i < 3; ++i) {
+            const std::size_t n = index(corner[index(i)]);
+            slip -= weight[i] * velocity[n];
+            ahead -= weight[i] * (velocity[n] + dt * inverse_mass[n] * force[n]);
+            compliance += weight[i] * weight[i] * inverse_mass[n];
+        }
         const double parting = slip.dot(state.normal);
-        const double press = std::fmax(0, k * touch.depth - c * parting);
+        const double press = NormalContact{.stiffness = k,
+                                           .damping = c,
+                                           .compliance = compliance,
+                                           .depth = touch.depth,
+                                           .speed = -parting,
+                                           .ahead = -ahead.dot(state.normal)}
+                                 .press(dt);
+        if (press == 0)
+            continue;
+        ++bearing_;
+        state.bears = true;
         const Vec3 across = slip - parting * state.normal;
-        const double grip = press > 0 ? law_.friction * press : 0; // friction may be infinite
+        const double grip = law_.friction * press;
         state.stretch += dt * across;
         state.stretch -= state.normal.dot(state.stretch) * state.normal;
         clamp_length(state.stretch, grip / (kTangential * k));
@@ -177,11 +205,9 @@ void SampleContact::push(const NodeArray& velocity, double softening, double dt,
 
         for (int i = 0; i < 3; ++i)
             force[index(corner[index(i)])] -= weight[i] * f;
-        reaction.force += f;
-        reaction.torque += (touch.at.point - motion.pose.position).cross(f);
+        rigid.add({f, (touch.at.point - motion.pose.position).cross(f)});
     }
-    if (!touch_.empty())
-        rigid.add(reaction);
+    return bearing_;
 }
 
 } // namespace ode::soft

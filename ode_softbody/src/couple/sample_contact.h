@@ -6,6 +6,7 @@
 #include "couple/rigid_shadow.h"
 #include "couple/surface_nodes.h"
 
+#include <span>
 #include <vector>
 
 namespace ode::soft {
@@ -34,13 +35,14 @@ public:
 
     /// Fills touch_. @return what the contacts ask of the rigid body's stability; tests are added
     /// up.
-    double find_touching(const NodeArray& position, const Pose& shape, const RigidShadow& rigid,
-                         double dt, unsigned long& tests) noexcept;
-    /// Adds the forces of the contacts found.
-    void push(const NodeArray& velocity, double softening, double dt, RigidShadow& rigid,
-              NodeArray& force) noexcept;
+    double find_touching(const NodeArray& position, const NodeArray& velocity,
+                         const RigidShadow& rigid, const Pose& in_body, double dt,
+                         unsigned long& tests) noexcept;
+    /// Adds the forces of the contacts found. @return how many bore one.
+    std::size_t push(const NodeArray& velocity, std::span<const double> inverse_mass,
+                     double softening, double dt, RigidShadow& rigid, NodeArray& force) noexcept;
 
-    std::size_t bearing() const noexcept { return touch_.size(); }
+    bool is_touching() const noexcept { return !touch_.empty(); }
     double reach() const noexcept; ///< of the farthest sample from the shape's origin [m]
     bool is_near() const noexcept { return !near_.empty(); }
     void forget() noexcept;
@@ -70,6 +72,9 @@ private:
         double distance2;
     };
 
+    /// Velocity of the rigid sample against the soft surface [m/s].
+    Vec3 slip_of(const Closest& closest, const NodeArray& velocity,
+                 const RigidMotion& motion) const noexcept;
     Closest find_closest(const Near& near, const Vec3& center, const State& state,
                          const NodeArray& position) const noexcept;
 
@@ -83,6 +88,7 @@ private:
     std::vector<Near> near_;
     std::vector<int> pair_; ///< triangles
     std::vector<Touch> touch_;
+    std::size_t bearing_ = 0;
 };
 
 } // namespace ode::soft

@@ -20,6 +20,8 @@ void kick_drift(const NodeInertia& inertia, double h, const NodeArray& force,
 class CentralDifference final : public Integrator {
 public:
     const char* name() const noexcept override { return "central_difference"; }
+    StrainExtremes evaluate(const ElasticModel& model, const NodeState& state,
+                            NodeArray& force) noexcept override;
     StrainExtremes step(const ElasticModel& model, const NodeInertia& inertia, double h,
                         NodeState& state, NodeArray& force) noexcept override;
     void begin(const ElasticModel& model, const NodeInertia& inertia, double h, NodeState& state,

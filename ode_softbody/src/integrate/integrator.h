@@ -12,25 +12,33 @@ namespace ode::soft {
 /// One way to step the nodes of a body. One object serves one body: scratch is made once, so that a
 /// step allocates nothing.
 ///
-/// The world first adds gravity and contacts between all bodies to each body's force array, at the
-/// positions and velocities as they stand, and then steps the bodies one by one; external force is
-/// constant over the substep. Methods with several stages evaluate the material anew at each stage;
-/// those with one stage cost one evaluation and no copy.
+/// A substep has two halves. The world puts gravity and the application's forces into each body's
+/// force array and calls evaluate(), which adds the material's; then contacts between all bodies,
+/// which see everything else that acts, add theirs; then step() moves the body. What is not the
+/// material's is constant over the substep. Methods with several stages keep a copy of what
+/// evaluate() added and evaluate the material anew at each later stage; those with one stage cost
+/// one evaluation and no copy.
 class Integrator {
 public:
     virtual ~Integrator() = default;
 
     virtual const char* name() const noexcept = 0;
 
+    /// Adds the material's force [N] at the state as it stands.
+    /// @return the worst strain there.
+    virtual StrainExtremes evaluate(const ElasticModel& model, const NodeState& state,
+                                    NodeArray& force) noexcept = 0;
+
     /// Advances by h [s].
-    /// @param force  in: external force [N]; out: spent, its content is the method's affair.
-    /// @return the worst strain that was met on the way.
+    /// @param force  in: all force at the state as it stands [N]; out: spent, its content is the
+    ///               method's affair.
+    /// @return the worst strain that was met on the way, besides that of evaluate().
     virtual StrainExtremes step(const ElasticModel& model, const NodeInertia& inertia, double h,
                                 NodeState& state, NodeArray& force) noexcept = 0;
 
     /// Turns the velocity at the time of the positions into the one that the method keeps between
     /// steps of h, and back: for initial states, hand-over between tiers, changes of h and output
-    /// that must be exact. `force` as in step(). Most methods keep the former: nothing to do.
+    /// that must be exact. `force` as for evaluate(). Most methods keep the former: nothing to do.
     virtual void begin(const ElasticModel&, const NodeInertia&, double /*h*/, NodeState&,
                        NodeArray& /*force*/) noexcept {}
     virtual void end(const ElasticModel&, const NodeInertia&, double /*h*/, NodeState&,

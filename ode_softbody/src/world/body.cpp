@@ -153,14 +153,17 @@ void Body::begin_substep(const Vec3& gravity) noexcept {
     if (has_external_)
         for (std::size_t i = 0; i < force_.size(); ++i)
             force_[i] += external_[i];
+    note(integrator_->evaluate(*model_, state_, force_));
     bearing_points_ = 0;
 }
 
-void Body::advance(double dt) noexcept {
-    const NodeInertia inertia{inverse_mass_};
-    const StrainExtremes now = integrator_->step(*model_, inertia, dt, state_, force_);
+void Body::note(const StrainExtremes& now) noexcept {
     extremes_.min_jacobian = std::min(extremes_.min_jacobian, now.min_jacobian);
     extremes_.max_stretch = std::max(extremes_.max_stretch, now.max_stretch);
+}
+
+void Body::advance(double dt) noexcept {
+    note(integrator_->step(*model_, NodeInertia{inverse_mass_}, dt, state_, force_));
     if (solid_.alpha == 0)
         return;
     undamped_ += dt;

@@ -84,8 +84,9 @@ private:
     void on_destroyed() noexcept override;
 
     void begin_step() noexcept;                       ///< remembers the state to return to
-    void begin_substep(const Vec3& gravity) noexcept; ///< force_ becomes what acts from afar
-    void advance(double dt) noexcept; ///< by the material and by force_, contact included
+    void begin_substep(const Vec3& gravity) noexcept; ///< force_ becomes all that acts but contact
+    void advance(double dt) noexcept;                 ///< by force_
+    void note(const StrainExtremes& now) noexcept;
     void end_step() noexcept;
     void roll_back() noexcept;
     void stop() noexcept;

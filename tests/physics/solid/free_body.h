@@ -29,7 +29,9 @@ struct FreeBody {
     }
     StrainExtremes step(double h) {
         force.set_zero();
-        return method.step(model, inertia, h, state, force);
+        const StrainExtremes worst = method.evaluate(model, state, force);
+        method.step(model, inertia, h, state, force);
+        return worst;
     }
 };
 

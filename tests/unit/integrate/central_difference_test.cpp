@@ -63,6 +63,7 @@ struct Swing {
     }
     void step(double h) {
         force.set_zero();
+        method.evaluate(springs, state, force);
         method.step(springs, inertia, h, state, force);
     }
 };
