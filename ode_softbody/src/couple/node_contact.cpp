@@ -254,8 +254,7 @@ void NodeContact::push(const NodeArray& position, const NodeArray& velocity, Rig
         const double c = softening_ * damping_[i];
         const double parting = slip.dot(touch.normal);
         const double lightness = inverse_mass_[n];
-        const Vec3 ahead =
-            velocity[n] + dt * lightness * force[n] - rigid.velocity_ahead(x, dt);
+        const Vec3 ahead = velocity[n] + dt * lightness * force[n] - rigid.velocity_ahead(x, dt);
         const double press =
             NormalContact{.stiffness = k,
                           .damping = c,

@@ -86,8 +86,8 @@ private:
 
     /// Fills touch_. @return what the contacts ask of the rigid body's stability.
     template <class Distance>
-    double find_touching(Distance distance_of, const NodeArray& position,
-                         const NodeArray& velocity, const RigidShadow& rigid, double dt) noexcept;
+    double find_touching(Distance distance_of, const NodeArray& position, const NodeArray& velocity,
+                         const RigidShadow& rigid, double dt) noexcept;
     double find_touching_planes(const NodeArray& position, const NodeArray& velocity,
                                 const RigidShadow& rigid, double dt) noexcept;
     void push(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid, double dt,
@@ -115,9 +115,9 @@ private:
     std::unique_ptr<SurfaceProbe> probe_; ///< of a probed shape
     std::vector<Planes> planes_;
     std::span<const double> inverse_mass_; ///< of every mesh node [1/kg]; borrowed for the step
-    double look_again_in_ = 0; ///< [s]
+    double look_again_in_ = 0;             ///< [s]
     std::size_t bearing_ = 0;
-    double softening_ = 1;     ///< in the last substep
+    double softening_ = 1; ///< in the last substep
 };
 
 } // namespace ode::soft

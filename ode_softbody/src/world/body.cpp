@@ -25,6 +25,19 @@ constexpr double kStepSafety = 0.9;
 constexpr double kDampingInterval = 16;
 constexpr double kDampingLoss = 1e-3;
 
+// Stretch raises the largest frequency of a St. Venant-Kirchhoff solid about in proportion. The
+// substep follows in rungs, and patiently on the way back, because every change costs two forces.
+constexpr double kRung = 1.25;
+constexpr double kSlack = 0.25; ///< of a rung, which kStepSafety bears: 0.9 * 1.25^0.25 < 0.96
+constexpr double kMarginLimit = 10;
+constexpr int kPatience = 100; ///< steps
+
+/// @param stretch  after a failed attempt maybe not a number.
+double rung_above(double stretch) noexcept {
+    const double wanted = stretch < kMarginLimit ? std::max(1.0, stretch) : kMarginLimit;
+    return std::pow(kRung, std::max(0.0, std::ceil(std::log(wanted) / std::log(kRung) - kSlack)));
+}
+
 } // namespace
 
 Body::Body(SoftWorld& world, const TetMesh& mesh, const Solid& solid)
@@ -144,7 +157,41 @@ void Body::add_force(int node, const Vec3& force) noexcept {
 
 void Body::begin_step() noexcept {
     checkpoint_ = state_;
+    checkpoint_dt_ = last_dt_;
     extremes_ = {};
+}
+
+void Body::fit_velocity(double dt) noexcept {
+    if (dt == last_dt_)
+        return;
+    // A velocity half of another substep old would be a kick to every mode, largest for the
+    // fastest: changing substeps would pump energy.
+    const NodeInertia inertia{inverse_mass_};
+    if (last_dt_ > 0) {
+        force_.set_zero();
+        integrator_->end(*model_, inertia, last_dt_, state_, force_);
+    }
+    force_.set_zero();
+    integrator_->begin(*model_, inertia, dt, state_, force_);
+    last_dt_ = dt;
+}
+
+bool Body::adapt_margin() noexcept {
+    const double wanted = rung_above(extremes_.max_stretch);
+    if (wanted <= margin_)
+        return false;
+    margin_ = wanted;
+    calm_steps_ = 0;
+    return true;
+}
+
+void Body::relax_margin() noexcept {
+    const double wanted = rung_above(extremes_.max_stretch);
+    calm_steps_ = wanted < margin_ ? calm_steps_ + 1 : 0;
+    if (calm_steps_ <= kPatience)
+        return;
+    margin_ = wanted;
+    calm_steps_ = 0;
 }
 
 void Body::begin_substep(const Vec3& gravity) noexcept {
@@ -174,6 +221,7 @@ void Body::advance(double dt) noexcept {
 }
 
 void Body::end_step() noexcept {
+    relax_margin();
     failures_ = 0;
     if (!has_external_)
         return;
@@ -181,7 +229,11 @@ void Body::end_step() noexcept {
     has_external_ = false;
 }
 
-void Body::roll_back() noexcept { std::swap(state_, checkpoint_); }
+void Body::roll_back() noexcept {
+    adapt_margin();
+    std::swap(state_, checkpoint_);
+    last_dt_ = checkpoint_dt_;
+}
 
 void Body::stop() noexcept {
     stopped_ = true;

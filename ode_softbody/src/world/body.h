@@ -70,6 +70,8 @@ public:
 
     bool stopped() const noexcept { return stopped_; }
     const StrainExtremes& extremes() const noexcept { return extremes_; } ///< of the last step
+    /// Substep that is stable at the stretch lately met [s].
+    double safe_substep() const noexcept { return substep_ / margin_; }
     std::size_t bearing_points() const noexcept { return bearing_points_; }
 
     void* data = nullptr; ///< the application's
@@ -83,11 +85,17 @@ private:
     int on_ray(dGeomID ray, int flags, dContactGeom* contact, int skip) noexcept override;
     void on_destroyed() noexcept override;
 
-    void begin_step() noexcept;                       ///< remembers the state to return to
+    void begin_step() noexcept; ///< remembers the state to return to
+    /// Brings the velocity to half of `dt` before the positions' time, where the integrator keeps
+    /// it.
+    void fit_velocity(double dt) noexcept;
     void begin_substep(const Vec3& gravity) noexcept; ///< force_ becomes all that acts but contact
     void advance(double dt) noexcept;                 ///< by force_
     void note(const StrainExtremes& now) noexcept;
     void end_step() noexcept;
+    /// Makes room for the stretch met in this step. @return whether that took a shorter substep.
+    bool adapt_margin() noexcept;
+    void relax_margin() noexcept; ///< the way back, when it has long not been needed
     void roll_back() noexcept;
     void stop() noexcept;
     void moved() noexcept; ///< tells ODE that the geom's box is out of date
@@ -112,7 +120,11 @@ private:
     double total_mass_;
     double critical_step_;
     double substep_;
-    double undamped_ = 0; ///< time since mass-proportional damping was last applied [s]
+    double undamped_ = 0;      ///< time since mass-proportional damping was last applied [s]
+    double checkpoint_dt_ = 0; ///< last_dt_ of the checkpoint [s]
+    double last_dt_ = 0;       ///< that the velocity lags half of; 0 before the first step [s]
+    double margin_ = 1;        ///< the substep is shortened by, for stretch
+    int calm_steps_ = 0;       ///< steps in a row that would have done with less margin
     StrainExtremes extremes_;
     std::size_t bearing_points_ = 0;
     int failures_ = 0; ///< attempts at this step that went unstable

@@ -24,7 +24,8 @@ void RigidExchange::begin_step(std::span<const std::unique_ptr<Body>> bodies, do
             RigidShadow& shadow = shadow_[contact.shadow];
             if (contact.law->bearing())
                 shadow.set_softening(std::min(shadow.softening(), contact.law->softening()));
-            contact.law->begin_step(*shape, body->contact_law(), body->inverse_mass_, dt);
+            contact.law->begin_step(*shape, body->contact_law(), body->inverse_mass_,
+                                    body->substep());
         }
     }
     std::erase_if(contact_, [](const Contact& contact) { return !contact.current; });

@@ -25,13 +25,6 @@ constexpr int kWatchInterval = 10;
 // Principal stretch beyond which no explicit step chosen at rest is stable for any material here.
 constexpr double kStretchLimit = 10;
 
-// Stretch raises the largest frequency of a St. Venant-Kirchhoff solid about in proportion, so the
-// substep follows it. @param stretch  of the step before, or of the failed attempt: maybe not
-// finite.
-double stiffening(double stretch) noexcept {
-    return stretch < kStretchLimit ? std::max(1.0, stretch) : kStretchLimit;
-}
-
 } // namespace
 
 SoftWorld::SoftWorld(dWorldID world, dSpaceID space) : world_(world), space_(space) {}
@@ -95,22 +88,37 @@ double SoftWorld::common_substep(double h) const noexcept {
     double least = h;
     for (const auto& body : body_)
         if (!body->stopped())
-            least = std::min(least, body->substep() / stiffening(body->extremes().max_stretch));
+            least = std::min(least, body->safe_substep());
     return h / std::ceil(h / least);
 }
 
 bool SoftWorld::advance(double h) noexcept {
     if (std::all_of(body_.begin(), body_.end(), [](const auto& b) { return b->stopped(); }))
         return true;
-    const double dt = common_substep(h);
-    const auto substeps = std::lround(h / dt);
+    exchange_.begin_step(body_, h, common_substep(h));
+    for (const auto& body : body_)
+        body->begin_step();
+    double done = 0;
+    while (done < h) {
+        const double dt = common_substep(h - done);
+        const long substeps = std::lround((h - done) / dt);
+        for (const auto& body : body_)
+            if (!body->stopped())
+                body->fit_velocity(dt);
+        const long taken = run_substeps(time_ + done, dt, substeps);
+        if (taken == 0)
+            return false;
+        done = taken == substeps ? h : done + static_cast<double>(taken) * dt;
+    }
+    for (const auto& body : body_)
+        body->end_step();
+    return true;
+}
+
+long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
     dVector3 g;
     dWorldGetGravity(world_, g);
     const Vec3 gravity(g[0], g[1], g[2]);
-
-    exchange_.begin_step(body_, h, dt);
-    for (const auto& body : body_)
-        body->begin_step();
     const bool observed = std::any_of(observer_.begin(), observer_.end(),
                                       [](const auto& o) { return o->wants_substeps(); });
     for (long i = 1; i <= substeps; ++i) {
@@ -127,15 +135,16 @@ bool SoftWorld::advance(double h) noexcept {
                 stats_.element_steps += body->mesh().element_count();
             }
         ++stats_.substeps;
-        if (i % kWatchInterval == 0 || i == substeps)
-            if (!all_sound())
-                return false;
+        const bool look = i % kWatchInterval == 0 || i == substeps;
+        if (look && !all_sound())
+            return 0;
         if (observed)
-            show_substep(time_ + static_cast<double>(i) * dt, dt);
+            show_substep(start + static_cast<double>(i) * dt, dt);
+        if (look && std::any_of(body_.begin(), body_.end(),
+                                [](const auto& b) { return b->adapt_margin(); }))
+            return i;
     }
-    for (const auto& body : body_)
-        body->end_step();
-    return true;
+    return substeps;
 }
 
 bool SoftWorld::all_sound() noexcept {
@@ -154,7 +163,7 @@ bool SoftWorld::all_sound() noexcept {
         report(
             format("soft body %td went unstable at t = %g s (substep %g s, redone at %g s) and is "
                    "stopped; give it a smaller substep, a stiffer material or a gentler blow",
-                   failed - body_.begin(), time_, body.substep(), body.substep() / kStretchLimit));
+                   failed - body_.begin(), time_, body.substep(), body.safe_substep()));
     }
     return false;
 }

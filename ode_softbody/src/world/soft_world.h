@@ -70,6 +70,9 @@ private:
     /// Soft bodies, contacts and observers for h seconds. @return false when a body went unstable:
     /// it is then marked stopped and everything is as it was before the call.
     bool advance(double h) noexcept;
+    /// From `start` [s]. @return substeps taken: fewer when a body needs shorter ones from now on,
+    /// none when one went unstable.
+    long run_substeps(double start, double dt, long substeps) noexcept;
     bool all_sound() noexcept;
     void show_substep(double time, double dt) noexcept;
     void watch_step() noexcept;

@@ -23,8 +23,8 @@ typedef struct dxSoundSink* dSoundSinkID;
 
 /* ---- World ------------------------------------------------------------------------------- */
 
-/** Sound of all bodies of a soft world. Ends with dSoundWorldDestroy(). If the soft world ends first,
- * what still travels is played out then, and nothing comes after.
+/** Sound of all bodies of a soft world. Ends with dSoundWorldDestroy(). If the soft world ends
+ * first, what still travels is played out then, and nothing comes after.
  *
  * Latency: frames leave at the end of the step in which they are complete, 2.1 ms (100 frames at
  * 48 kHz) after their own time. Sound from further than 850 m away is lost. */
