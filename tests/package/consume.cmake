@@ -1,6 +1,6 @@
 # One step of the package test:
 # cmake -D step=install|cmake|pkgconfig|preload -D build=... -D source=... -D work=... -D libdir=...
-#       -D cc=... -P consume.cmake
+#       -D cc=... -D generator=... -P consume.cmake
 cmake_minimum_required(VERSION 3.25)
 set(prefix ${work}/moved)
 set(libraries ${prefix}/${libdir})
@@ -66,7 +66,7 @@ if(step STREQUAL "install")
 elseif(step STREQUAL "cmake")
     readme_block(c ${work}/cmake/clang.c)
     readme_block(cmake ${work}/cmake/CMakeLists.txt)
-    run(${work}/cmake ${CMAKE_COMMAND} -S . -B build -D CMAKE_PREFIX_PATH=${prefix}
+    run(${work}/cmake ${CMAKE_COMMAND} -G ${generator} -S . -B build -D CMAKE_PREFIX_PATH=${prefix}
         -D CMAKE_C_COMPILER=${cc})
     run(${work}/cmake ${CMAKE_COMMAND} --build build)
     must_sound(${work}/cmake build/clang)
