@@ -47,8 +47,9 @@ public:
     /// Times a live device ran out of samples.
     virtual unsigned long underruns() const noexcept { return 0; }
 
-    /// Frames taken and not yet played: by how much the simulation is ahead of a live device. A loop
-    /// that steps faster than real time waits while this is large. 0 for sinks without a clock.
+    /// Frames taken and not yet played: by how much the simulation is ahead of a live device. A
+    /// loop that steps faster than real time waits while this is large. 0 for sinks without a
+    /// clock.
     virtual std::size_t backlog() const noexcept { return 0; }
 };
 
