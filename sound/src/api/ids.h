@@ -14,17 +14,6 @@ struct dxSoundWorld {
 };
 
 struct dxSoundListener {
-    ~dxSoundListener(); ///< lets its sinks go
-    dSoundWorldID owner = nullptr;
-    ode::sound::Listener* listener = nullptr; ///< the world's
+    dSoundWorldID owner;
+    ode::sound::Listener* listener; ///< the world's
 };
-
-namespace ode::sound {
-
-/// The sink behind an id (sink.cpp).
-Sink& sink_of(dSoundSinkID sink) noexcept;
-
-/// Takes a sink from the listener that has it, if any. dSoundSinkDestroy() calls this first.
-void let_go(Sink& sink) noexcept;
-
-} // namespace ode::sound

@@ -1,48 +1,22 @@
 #include "api/guard.h"
 #include "api/ids.h"
+#include "api/sink.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <mutex>
-#include <unordered_map>
+#include <vector>
 
 namespace ode::sound {
 namespace {
-
-/// Which listener has a sink. Worlds may be stepped by different threads; sinks may be handed
-/// about.
-struct Owners {
-    std::mutex mutex;
-    std::unordered_map<const Sink*, Listener*> of;
-};
-
-Owners& owners() {
-    static Owners all;
-    return all;
-}
 
 Vec3 from_c(const dReal* v) { return {v[0], v[1], v[2]}; }
 
 } // namespace
 
-void let_go(Sink& sink) noexcept {
-    const std::lock_guard lock(owners().mutex);
-    const auto at = owners().of.find(&sink);
-    if (at == owners().of.end())
-        return;
-    at->second->remove_sink(sink);
-    owners().of.erase(at);
-}
-
 } // namespace ode::sound
 
 using namespace ode::sound;
-
-dxSoundListener::~dxSoundListener() {
-    const std::lock_guard lock(owners().mutex);
-    std::erase_if(owners().of, [this](const auto& pair) { return pair.second == listener; });
-}
 
 dSoundListenerID dSoundListenerCreate(dSoundWorldID world) {
     require_id(world, "dSoundListenerCreate");
@@ -60,9 +34,8 @@ void dSoundListenerDestroy(dSoundListenerID listener) {
     require_id(listener, "dSoundListenerDestroy");
     dSoundWorldID world = listener->owner;
     std::erase(world->listeners, listener);
-    Listener* own = listener->listener;
-    delete listener; // lets sinks go, which still name the listener
-    world->world.remove_listener(*own);
+    world->world.remove_listener(*listener->listener);
+    delete listener;
 }
 
 int dSoundListenerSetPosition(dSoundListenerID listener, dReal x, dReal y, dReal z) {
@@ -103,21 +76,15 @@ int dSoundListenerAddSink(dSoundListenerID listener, dSoundSinkID sink) {
     require_id(listener, "dSoundListenerAddSink");
     require_id(sink, "dSoundListenerAddSink");
     return guarded("dSoundListenerAddSink", 0, [&] {
-        Sink& own = sink_of(sink);
-        {
-            const std::lock_guard lock(owners().mutex);
-            const auto at = owners().of.find(&own);
-            if (at != owners().of.end() && at->second != listener->listener) {
+        for (dSoundListenerID other : listener->owner->listeners)
+            if (other != listener && other->listener->has_sink(*sink->sink)) {
                 dMessage(0, "dSoundListenerAddSink: the sink serves another listener; one sink "
                             "serves one listener");
                 return 0;
             }
-            owners().of.emplace(&own, listener->listener);
-        }
-        if (listener->listener->add_sink(own))
+        if (listener->listener->add_sink(sink->sink))
             return 1;
-        let_go(own);
-        dMessage(0, "dSoundListenerAddSink: %s", own.error());
+        dMessage(0, "dSoundListenerAddSink: %s", sink->sink->error());
         return 0;
     });
 }
@@ -125,10 +92,11 @@ int dSoundListenerAddSink(dSoundListenerID listener, dSoundSinkID sink) {
 int dSoundListenerSetSink(dSoundListenerID listener, dSoundSinkID sink) {
     require_id(listener, "dSoundListenerSetSink");
     return guarded("dSoundListenerSetSink", 0, [&] {
-        const std::vector<Sink*> had = listener->listener->sinks();
-        for (Sink* old : had)
-            if (!sink || old != &sink_of(sink))
-                let_go(*old);
+        std::vector<const Sink*> had;
+        listener->listener->for_each_sink([&](const Sink& own) { had.push_back(&own); });
+        for (const Sink* old : had)
+            if (!sink || old != sink->sink.get())
+                listener->listener->remove_sink(*old);
         return sink ? dSoundListenerAddSink(listener, sink) : 1;
     });
 }

@@ -131,8 +131,7 @@ int dSoundGetStats(dSoundWorldID world, dSoundStats* stats) {
         all.gathers = count.gathers;
         all.frames = count.frames;
         for (const auto& listener : scene.all())
-            for (const Sink* sink : listener->sinks())
-                all.underruns += sink->underruns();
+            listener->for_each_sink([&](const Sink& sink) { all.underruns += sink.underruns(); });
         all.seconds = world->world.seconds();
         all.peak = count.peak;
         all.rms = count.rms;

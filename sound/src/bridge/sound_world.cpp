@@ -21,8 +21,7 @@ SoundWorld::~SoundWorld() {
     ignore();
     on_world_end();
     for (const auto& listener : scene_.all())
-        for (Sink* sink : listener->sinks())
-            sink->close();
+        listener->for_each_sink([](Sink& sink) { sink.close(); });
 }
 
 void SoundWorld::observe() {

@@ -132,18 +132,18 @@ void Listener::render(std::int64_t frame) noexcept {
                 meter_.add(heard[e][f]);
                 out[kEars * f + e] = static_cast<float>(scale * heard[e][f]);
             }
-        for (Sink* sink : sinks_) {
+        for_each_sink([&](Sink& sink) {
             const auto wanted = static_cast<std::size_t>(count);
             std::size_t taken = 0;
             while (taken < wanted) {
-                const std::size_t now = sink->write(
+                const std::size_t now = sink.write(
                     std::span<const float>(out + kEars * taken, kEars * (wanted - taken)));
                 if (now == 0)
                     break;
                 taken += now;
             }
             dropped_ += static_cast<std::int64_t>(wanted - std::min(taken, wanted));
-        }
+        });
         next_ += count;
         frames_ += count;
     }
@@ -158,17 +158,26 @@ std::int64_t Listener::last_frame() const noexcept {
     return last;
 }
 
-bool Listener::add_sink(Sink& sink) {
-    if (std::find(sinks_.begin(), sinks_.end(), &sink) != sinks_.end())
+bool Listener::add_sink(const std::shared_ptr<Sink>& sink) {
+    if (has_sink(*sink))
         return true;
-    if (!sink.open({settings_->rate, kEars}))
+    if (!sink->open({settings_->rate, kEars}))
         return false;
-    sinks_.push_back(&sink);
+    sinks_.push_back(sink);
     return true;
 }
 
-void Listener::remove_sink(Sink& sink) noexcept {
-    sinks_.erase(std::remove(sinks_.begin(), sinks_.end(), &sink), sinks_.end());
+void Listener::remove_sink(const Sink& sink) noexcept {
+    std::erase_if(sinks_, [&](const std::weak_ptr<Sink>& own) {
+        const std::shared_ptr<Sink> alive = own.lock();
+        return !alive || alive.get() == &sink;
+    });
+}
+
+bool Listener::has_sink(const Sink& sink) const noexcept {
+    bool found = false;
+    for_each_sink([&](const Sink& own) { found = found || &own == &sink; });
+    return found;
 }
 
 } // namespace ode::sound

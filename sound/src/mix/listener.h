@@ -39,10 +39,18 @@ public:
     /// Frame after the last that anything is under way to.
     std::int64_t last_frame() const noexcept;
 
+    /// The sink stays the caller's; once that lets it go, so does the listener.
     /// @return false when the sink refuses the format; Sink::error() says why.
-    bool add_sink(Sink& sink);
-    void remove_sink(Sink& sink) noexcept;
-    const std::vector<Sink*>& sinks() const noexcept { return sinks_; }
+    bool add_sink(const std::shared_ptr<Sink>& sink);
+    void remove_sink(const Sink& sink) noexcept;
+    bool has_sink(const Sink& sink) const noexcept;
+    /// Those that live. @param use  called with each.
+    template <class Use>
+    void for_each_sink(Use&& use) const {
+        for (const std::weak_ptr<Sink>& own : sinks_)
+            if (const std::shared_ptr<Sink> sink = own.lock())
+                use(*sink);
+    }
 
     std::int64_t frames() const noexcept { return frames_; }   ///< rendered
     std::int64_t dropped() const noexcept { return dropped_; } ///< not taken by a full sink
@@ -63,7 +71,7 @@ private:
     std::int64_t frames_ = 0;
     std::int64_t dropped_ = 0;
     std::array<Ear, kEars> ear_;
-    std::vector<Sink*> sinks_; ///< the app's
+    std::vector<std::weak_ptr<Sink>> sinks_;
     Meter meter_;
 };
 

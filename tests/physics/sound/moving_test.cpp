@@ -56,7 +56,7 @@ Fit fit(const std::vector<double>& out, double begin, int rate, const Approach& 
 /// A point of prescribed flow, sent straight to a listener: the way alone is judged.
 std::vector<double> send_point(const Approach& model, double seconds) {
     const Settings settings = Rig::unit_settings();
-    Recorder recorder;
+    const auto recorder = std::make_shared<Recorder>();
     Listener listener(settings, 0);
     listener.pose.ear_distance = 0.0;
     listener.add_sink(recorder);
@@ -73,7 +73,7 @@ std::vector<double> send_point(const Approach& model, double seconds) {
         listener.send(FlowBlock{o, 4, position, area, softening, flow, 1.0});
         listener.render(settings.first_open_frame(tau));
     }
-    return recorder.ear[0];
+    return recorder->ear[0];
 }
 
 class MovingPoint : public testing::TestWithParam<double> {};

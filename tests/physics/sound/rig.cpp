@@ -82,7 +82,7 @@ Settings Rig::unit_settings() {
 Rig::Rig(const Settings& settings, double dt) : dt_(dt) {
     scene.set(settings);
     listener = &scene.add_listener(0.0);
-    listener->add_sink(recorder);
+    listener->add_sink(tape);
 }
 
 int Rig::add(Shape shape, Motion motion) {

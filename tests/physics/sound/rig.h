@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -69,7 +70,8 @@ public:
 
     Scene scene;
     Listener* listener;
-    Recorder recorder;
+    std::shared_ptr<Recorder> tape = std::make_shared<Recorder>();
+    Recorder& recorder = *tape;
 
 private:
     struct Body {

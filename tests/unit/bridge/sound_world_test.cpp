@@ -112,20 +112,20 @@ TEST_F(SoundWorldTest, WithoutListenerNothingIsObserved) {
 TEST_F(SoundWorldTest, PackedAndPaddedNodesSoundTheSame) {
     std::vector<double> heard[2];
     for (const int stride : {3, 4}) {
-        Recorder recorder;
+        const auto recorder = std::make_shared<Recorder>();
         SoundWorld world(world_id());
         Listener& listener = world.add_listener();
         listener.pose.centre = {0.0, 0.1, 0.0};
         listener.add_sink(recorder);
         Body(stride).step(0.02);
-        heard[stride - 3] = recorder.ear[0];
+        heard[stride - 3] = recorder->ear[0];
         EXPECT_GT(world.scene().count().peak, 0.0);
     }
     EXPECT_EQ(heard[0], heard[1]);
 }
 
 TEST_F(SoundWorldTest, SurvivesTheSoftWorldAndPlaysOut) {
-    Recorder recorder;
+    const auto recorder = std::make_shared<Recorder>();
     {
         SoundWorld world(world_id());
         Listener& listener = world.add_listener();
@@ -135,7 +135,7 @@ TEST_F(SoundWorldTest, SurvivesTheSoftWorldAndPlaysOut) {
         body.step(0.02);
         const dSoftObserver observer = *fake.observer;
         observer.on_world_end(observer.data, world_id());
-        EXPECT_GT(recorder.ear[0].size(), 5760u) << "0.12 s: all that travelled";
+        EXPECT_GT(recorder->ear[0].size(), 5760u) << "0.12 s: all that travelled";
         observer.on_body_end(observer.data, body_id()); // in either order
         world.remove_listener(listener);
         EXPECT_EQ(fake.removed, 0) << "the soft world is gone: it is not called";
