@@ -15,7 +15,7 @@ struct ModalProgress {
 };
 
 struct ModalOptions {
-    int order = 2; ///< of the displacement: 1, 2 or 3, whatever the mesh
+    int order = 3; ///< of the displacement: 1, 2 or 3, whatever the mesh
     MassKind mass = MassKind::kConsistent;
     double max_frequency = 22000;              ///< [Hz] all modes up to here
     std::size_t max_modes = 0;                 ///< lowest ones only; 0: no limit
