@@ -124,7 +124,7 @@ TEST_F(Cache, ComputesAnewWhatIsDamagedAndSaysSo) {
         f.put(value);
     };
     damage([&] { overwrite(size - 100, 'x'); }, "is damaged");
-    damage([&] { overwrite(48, 'x'); }, "cut short"); // a size field, or caught as damage
+    damage([&] { overwrite(18, 'x'); }, "cut short"); // the number of modes
     damage([&] { fs::resize_file(file(), size / 2); }, "cut short");
     damage([&] { fs::resize_file(file(), 0); }, "is not a modal model");
     damage([&] { overwrite(8, 99); }, "version 99");
