@@ -67,7 +67,10 @@ Partner partner(const VectorXd& overlaps, const VectorXd& lambda) {
     if (!(overlaps.squaredNorm() > 0.5))
         return {std::nan(""), 0};
     const double mean = weight.dot(lambda);
-    const double variance = weight.dot((lambda.array() - mean).square().matrix());
+    // Far ones are the fine detail that the other order lacks: that is in the mean already.
+    const auto near = (lambda.array() - mean).abs() < 0.3 * mean;
+    const double variance =
+        near.select(weight.array() * (lambda.array() - mean).square(), 0.0).sum();
     return {frequency_of(mean), 600 / std::log(2.0) * std::sqrt(variance) / mean};
 }
 
@@ -135,13 +138,12 @@ std::size_t set_bands(ModalModel& model, const OrderPair& pair, bool coarse_answ
         const Partner other = coarse_answer
                                   ? partner(pair.overlap.row(i).transpose(), pair.fine.value)
                                   : partner(pair.overlap.col(i), pair.coarse.value);
-        double band = std::abs(cents_between(f, other.frequency)) + other.spread;
-        if (coarse_answer)
-            band *= 2;
-        else if (std::isfinite(other.frequency))
+        const double change = std::abs(cents_between(f, other.frequency)) + other.spread;
+        double band = (coarse_answer ? 2 : facets ? 0.7 : 0.5) * change;
+        if (!coarse_answer && std::isfinite(other.frequency))
             model.frequency[k] = f - 0.1 * (other.frequency - f);
         if (facets)
-            band = 0.7 * band + 0.3 * std::abs((*facets)[i]);
+            band += 0.3 * std::abs((*facets)[i]);
         lost += !std::isfinite(band);
         model.error_cents.push_back(band);
     }
