@@ -12,7 +12,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 /// Columns worked on at once: the vectors of a batch, and not of all modes, are held several times.
 constexpr Index kBatch = 32;
@@ -103,11 +102,6 @@ Refined refine(const ModalProblem& coarse, const EigenPairs& pairs, const ModalP
     const MatrixXd c = basis * ritz.eigenvectors().leftCols(m);
     out.from = c.topRows(m);
     out.along = c.bottomRows(m);
-    out.coarse.resize(m);
-    for (Index k = 0; k < m; ++k) {
-        const VectorXd part = out.from.col(k).cwiseAbs2();
-        out.coarse[k] = part.dot(pairs.value) / part.sum();
-    }
     return out;
 }
 

@@ -6,11 +6,9 @@ namespace ode::soft {
 
 /// Modes of the next order up, from those of the order below on the same mesh.
 struct Refined {
-    Eigen::VectorXd value;  ///< lambda of the fine order [1/s^2], ascending
-    Eigen::VectorXd coarse; ///< of the same shapes on the coarse order, as a mean where shapes mix
-    Eigen::MatrixXd
-        from; ///< fine vector k = P X from.col(k) + W along.col(k), X the coarse vectors
-    Eigen::MatrixXd along;
+    Eigen::VectorXd value; ///< lambda of the fine order [1/s^2], ascending
+    /// Fine vector k is P X from.col(k) + W along.col(k), X the coarse vectors.
+    Eigen::MatrixXd from, along;
     RowMatrix correction; ///< W
     int steps = 0;        ///< of conjugate gradients, the most of any batch
 };

@@ -52,17 +52,27 @@ void fill_overlap(const Transfer& transfer, const ModalProblem& fine, OrderPair&
     }
 }
 
-/// Frequency on the other order of the same shape: mean of lambda weighted by squared overlap, so
-/// that the members of a pair, which turn freely, get the pair's. NaN where less than half of the
-/// shape is found.
-double partner(const VectorXd& overlaps, const VectorXd& lambda) {
-    const VectorXd weight = overlaps.cwiseAbs2();
-    if (weight.sum() < 0.5)
-        return std::nan("");
-    return frequency_of(weight.dot(lambda) / weight.sum());
-}
-
 double cents_between(double a, double b) { return 1200 * std::log2(a / b); }
+
+/// The same shape on the other order.
+struct Partner {
+    double frequency; ///< [Hz]; NaN where less than half of the shape is found
+    double spread;    ///< of the frequencies that it mixes [cents]
+};
+
+/// Mean of lambda weighted by squared overlap: the members of a pair, which turn freely, get the
+/// pair's. A shape that mixes different frequencies isn't settled on this mesh.
+Partner partner(const VectorXd& overlaps, const VectorXd& lambda) {
+    const VectorXd weight = overlaps.cwiseAbs2() / overlaps.squaredNorm();
+    if (!(overlaps.squaredNorm() > 0.5))
+        return {std::nan(""), 0};
+    const double mean = weight.dot(lambda);
+    // Far ones are the fine detail that the other order lacks: that is in the mean already.
+    const auto near = (lambda.array() - mean).abs() < 0.3 * mean;
+    const double variance =
+        near.select(weight.array() * (lambda.array() - mean).square(), 0.0).sum();
+    return {frequency_of(mean), 600 / std::log(2.0) * std::sqrt(variance) / mean};
+}
 
 /// What straight edges would change, in cents a mode: Rayleigh quotients of the same nodal
 /// displacements on straight geometry, right to the second order in the change of shape.
@@ -125,16 +135,15 @@ std::size_t set_bands(ModalModel& model, const OrderPair& pair, bool coarse_answ
     for (std::size_t k = 0; k < model.mode_count(); ++k) {
         const auto i = static_cast<Index>(k);
         const double f = model.frequency[k];
-        const double other = coarse_answer
-                                 ? partner(pair.overlap.row(i).transpose(), pair.fine.value)
-                                 : partner(pair.overlap.col(i), pair.coarse.value);
-        double band = std::abs(cents_between(f, other));
-        if (coarse_answer)
-            band *= 2;
-        else if (std::isfinite(other))
-            model.frequency[k] = f - 0.1 * (other - f);
+        const Partner other = coarse_answer
+                                  ? partner(pair.overlap.row(i).transpose(), pair.fine.value)
+                                  : partner(pair.overlap.col(i), pair.coarse.value);
+        const double change = std::abs(cents_between(f, other.frequency)) + other.spread;
+        double band = (coarse_answer ? 2 : facets ? 0.7 : 0.5) * change;
+        if (!coarse_answer && std::isfinite(other.frequency))
+            model.frequency[k] = f - 0.1 * (other.frequency - f);
         if (facets)
-            band = 0.7 * band + 0.3 * std::abs((*facets)[i]);
+            band += 0.3 * std::abs((*facets)[i]);
         lost += !std::isfinite(band);
         model.error_cents.push_back(band);
     }
