@@ -1,22 +1,11 @@
 #include "api/guard.h"
-#include "api/ids.h"
+#include "api/sink.h"
 #include "sink/file_sink.h"
 #include "sink/memory_sink.h"
 #include "sink/null_sink.h"
 #include "sink/openal_sink.h"
 
 #include <memory>
-
-/// A listener borrows the sink; dSoundSinkDestroy() takes it from the listener first.
-struct dxSoundSink {
-    std::unique_ptr<ode::sound::Sink> sink;
-};
-
-namespace ode::sound {
-
-Sink& sink_of(dSoundSinkID sink) noexcept { return *sink->sink; }
-
-} // namespace ode::sound
 
 using namespace ode::sound;
 
@@ -31,28 +20,28 @@ dSoundSinkID create(const char* function, Make&& make) noexcept {
 } // namespace
 
 dSoundSinkID dSoundSinkCreateNull(void) {
-    return create(__func__, [] { return std::make_unique<NullSink>(); });
+    return create(__func__, [] { return std::make_shared<NullSink>(); });
 }
 
 dSoundSinkID dSoundSinkCreateMemory(void) {
-    return create(__func__, [] { return std::make_unique<MemorySink>(); });
+    return create(__func__, [] { return std::make_shared<MemorySink>(); });
 }
 
 dSoundSinkID dSoundSinkCreateFile(const char* path) {
     require_id(path, __func__);
-    return create(__func__, [path] { return std::make_unique<FileSink>(path); });
+    return create(__func__, [path] { return std::make_shared<FileSink>(path); });
 }
 
 dSoundSinkID dSoundSinkCreateOpenAL(void) {
     const char* const function = __func__;
-    return create(function, [function]() -> std::unique_ptr<Sink> {
+    return create(function, [function]() -> std::shared_ptr<Sink> {
         try {
-            return std::make_unique<OpenAlSink>(
+            return std::make_shared<OpenAlSink>(
                 OpenAlDevice::open_default(),
                 [](const char* sentence) { dMessage(0, "%s", sentence); });
         } catch (const Refused& e) {
             dMessage(0, "%s: %s (a null sink takes its place)", function, e.what());
-            return std::make_unique<NullSink>();
+            return std::make_shared<NullSink>();
         }
     });
 }
@@ -60,7 +49,6 @@ dSoundSinkID dSoundSinkCreateOpenAL(void) {
 void dSoundSinkDestroy(dSoundSinkID sink) {
     if (!sink)
         return;
-    let_go(*sink->sink);
     sink->sink->close();
     delete sink;
 }
