@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "modal/lagrange.h"
+#include "model/check_solid.h"
 
 #include <algorithm>
 #include <array>
@@ -142,23 +143,8 @@ void check_solids(const TetMesh& mesh, std::span<const Solid> solids) {
         throw InputError(format("the mesh has %zu groups of elements but %zu materials were given: "
                                 "give one for each group",
                                 wanted, solids.size()));
-    for (std::size_t i = 0; i < wanted; ++i) {
-        const Solid& s = solids[i];
-        const std::string whose =
-            i < mesh.group_name.size() ? "of group '" + mesh.group_name[i] + "' " : "";
-        if (!(s.young > 0) || !std::isfinite(s.young))
-            throw InputError(format("Young's modulus %sis %g Pa: it must be positive, "
-                                    "such as 2e11 for steel",
-                                    whose.c_str(), s.young));
-        if (!(s.density > 0) || !std::isfinite(s.density))
-            throw InputError(format("density %sis %g kg/m^3: it must be positive, such as 7850 for "
-                                    "steel",
-                                    whose.c_str(), s.density));
-        if (!(s.poisson > -1 && s.poisson < 0.5))
-            throw InputError(format("Poisson's ratio %sis %g: it must lie between -1 and 0.5, both "
-                                    "excluded; for rubber take 0.49",
-                                    whose.c_str(), s.poisson));
-    }
+    for (std::size_t i = 0; i < wanted; ++i)
+        check_solid(solids[i], i < mesh.group_name.size() ? mesh.group_name[i] : "");
 }
 
 BlockSystem assemble(const TetMesh& mesh, const DofMap& map, std::span<const Solid> solids,

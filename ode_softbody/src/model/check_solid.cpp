@@ -3,33 +3,25 @@
 #include "base/error.h"
 
 #include <cmath>
-#include <limits>
 
 namespace ode::soft {
-namespace {
 
-void require(bool holds, const char* what, double value, const char* cure) {
-    if (!holds)
-        throw InputError(format("the solid's %s is %g; %s", what, value, cure));
-}
-
-} // namespace
-
-void check_solid(const Solid& s) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    require(s.young > 0 && s.young < kInfinity, "Young's modulus", s.young,
-            "give a finite value above 0 in Pa (steel: 2e11)");
-    require(s.density > 0 && s.density < kInfinity, "density", s.density,
-            "give a finite value above 0 in kg/m^3 (steel: 7850)");
-    require(s.poisson > -1 && s.poisson < 0.5, "Poisson ratio", s.poisson,
-            "give a value above -1 and below 0.5; 0.49 for nearly incompressible rubber");
-    const auto check_damping = [&](const char* what, double value, const char* unit) {
-        require(value >= 0 && value < kInfinity, what, value, unit);
+void check_solid(const Solid& s, const std::string& group) {
+    const std::string whose = group.empty() ? "" : "of group '" + group + "' ";
+    const auto require = [&](bool holds, const char* what, double value, const char* unit,
+                             const char* cure) {
+        if (!(holds && std::isfinite(value)))
+            throw InputError(
+                format("%s %sis %g%s: it must %s", what, whose.c_str(), value, unit, cure));
     };
-    check_damping("viscosity phi", s.phi, "give a finite value of at least 0 in Pa s");
-    check_damping("viscosity psi", s.psi, "give a finite value of at least 0 in Pa s");
-    check_damping("damping alpha", s.alpha, "give a finite value of at least 0 in 1/s");
-    check_damping("damping beta", s.beta, "give a finite value of at least 0 in s");
+    require(s.young > 0, "Young's modulus", s.young, " Pa", "be positive, such as 2e11 for steel");
+    require(s.density > 0, "density", s.density, " kg/m^3", "be positive, such as 7850 for steel");
+    require(s.poisson > -1 && s.poisson < 0.5, "Poisson's ratio", s.poisson, "",
+            "lie between -1 and 0.5, both excluded; for rubber take 0.49");
+    require(s.phi >= 0, "viscosity phi", s.phi, " Pa s", "not be negative");
+    require(s.psi >= 0, "viscosity psi", s.psi, " Pa s", "not be negative");
+    require(s.alpha >= 0, "damping alpha", s.alpha, " 1/s", "not be negative");
+    require(s.beta >= 0, "damping beta", s.beta, " s", "not be negative");
 }
 
 } // namespace ode::soft
