@@ -72,6 +72,8 @@ void RigidShadow::add(const Wrench& reaction) noexcept {
 }
 
 Vec3 RigidShadow::velocity_ahead(const Vec3& world, double dt) const noexcept {
+    if (inverse_mass_ == 0)
+        return motion_.velocity_at(world);
     const Vec3 lever = world - motion_.pose.position;
     const Vec3 force = external_.force + contact_.force;
     const Vec3 torque = external_.torque + contact_.torque;
@@ -80,6 +82,8 @@ Vec3 RigidShadow::velocity_ahead(const Vec3& world, double dt) const noexcept {
 }
 
 double RigidShadow::compliance(const Vec3& point, const Vec3& normal) const noexcept {
+    if (inverse_mass_ == 0)
+        return 0;
     const Vec3 lever = (point - motion_.pose.position).cross(normal);
     return inverse_mass_ + lever.dot(inverse_inertia_world_ * lever);
 }

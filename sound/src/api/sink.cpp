@@ -1,6 +1,9 @@
 #include "api/sink.h"
 #include "api/guard.h"
+<<<<<<< HEAD
 #include "api/left_open.h"
+=======
+>>>>>>> main
 #include "sink/file_sink.h"
 #include "sink/memory_sink.h"
 #include "sink/null_sink.h"

@@ -162,8 +162,8 @@ TEST_P(RestsOn, AsOnAPlane) {
     dVector3 spin;
     dSoftBodyGetCenterOfMass(box, centre);
     dSoftBodyGetMomentum(box, momentum, spin);
-    std::printf("centre of mass %.4f mm up, momentum %.1e\n", 1e3 * centre[2],
-                vec(momentum).norm());
+    std::printf("centre of mass %.4f mm up, moved %.2f %.2f mm, momentum %.1e\n", 1e3 * centre[2],
+                1e3 * (centre[0] - 0.013), 1e3 * (centre[1] - 0.021), vec(momentum).norm());
     EXPECT_LT(centre[2], 0.05); // as above; a third of the contact stiffness on probed kinds
     EXPECT_GT(centre[2], 0.0480);
     EXPECT_LT(vec(momentum).norm(), 0.02); // of 1 kg: it may still sway

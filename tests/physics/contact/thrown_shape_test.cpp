@@ -85,6 +85,7 @@ public:
         const auto samples = sample_shape(shape, 0.01);
         for (double t = 0; t < seconds; t += dt_) {
             force_.set_zero();
+            integrator.evaluate(model_, state_, force_);
             contact.add_force(state_.position, state_.velocity, shadow, dt_, force_);
             shadow.advance(dt_);
             integrator.step(model_, {inverse_mass_, 0}, dt_, state_, force_);

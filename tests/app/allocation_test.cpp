@@ -1,0 +1,67 @@
+// A step allocates nothing: audio threads and games can't wait for a lock inside malloc.
+#include "support/ode_app.h"
+
+#include <ode_softbody/softbody.hpp>
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<long> allocations{0};
+
+void* counted(std::size_t size, std::size_t alignment) {
+    ++allocations;
+    void* p = nullptr;
+    if (posix_memalign(&p, alignment, size != 0 ? size : 1) != 0)
+        throw std::bad_alloc();
+    return p;
+}
+} // namespace
+
+// Replaces the allocation functions of the whole process, shared libraries included.
+void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    return counted(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+namespace {
+
+using namespace ode::soft;
+
+int no_rigid_step(dWorldID, dReal) { return 1; }
+
+TEST(Allocation, StepWithContactAndObserverAllocatesNothing) {
+    ode::test::OdeApp app(-9.81);
+    WorldHandle soft(dSoftWorldCreate(app.world, app.space));
+    dCreatePlane(app.space, 0, 0, 1, 0);
+    dSoftSolid solid = dSoftSolidDefault();
+    solid.young = 1e6;
+    solid.density = 1000;
+    const MeshHandle mesh(dSoftMeshCreateBox(0.1, 0.1, 0.1, 3, 3, 3));
+    const dSoftBodyID body = dSoftBodyCreate(soft, mesh, &solid);
+    dSoftBodySetPosition(body, 0, 0, 0.05);
+    long views = 0;
+    dSoftWorldAddSubstepObserver(
+        soft, [](void* data, const dSoftSubstep*) { ++*static_cast<long*>(data); }, &views);
+    for (int i = 0; i < 5; ++i) // a new contact may allocate its memory of friction
+        dSoftWorldStep(soft, 0.004, no_rigid_step);
+
+    const long before = allocations;
+    for (int i = 0; i < 50; ++i)
+        dSoftWorldStep(soft, 0.004, no_rigid_step);
+    EXPECT_EQ(allocations - before, 0);
+    EXPECT_GT(views, 0);
+    dSoftStatus status{};
+    status.struct_size = sizeof status;
+    dSoftBodyGetStatus(body, &status);
+    EXPECT_GT(status.contact_points, 0) << "the test must cover contact";
+}
+
+} // namespace
