@@ -24,12 +24,14 @@ typedef struct dxSoundSink* dSoundSinkID;
 /* ---- World ------------------------------------------------------------------------------- */
 
 /** Sound of all bodies of a soft world. Ends with dSoundWorldDestroy(). If the soft world ends
- * first, what still travels is played out then, and nothing comes after.
+ * first, what still travels is played out and sinks are closed then, and nothing comes after. The
+ * same happens at exit() to a world that nobody ended.
  *
  * Latency: frames leave at the end of the step in which they are complete, 2.1 ms (100 frames at
  * 48 kHz) after their own time. Sound from further than 850 m away is lost. */
 DSOUND_API dSoundWorldID dSoundWorldCreate(dSoftWorldID world);
-/** Plays out what still travels, closes files, frees listeners; sinks stay the caller's. */
+/** Plays out what still travels, closes the sinks of all listeners, frees listeners. The sinks
+ * themselves stay the caller's: a memory sink keeps its samples. */
 DSOUND_API void dSoundWorldDestroy(dSoundWorldID world);
 
 /** How surface motion becomes pressure:

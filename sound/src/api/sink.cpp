@@ -1,5 +1,9 @@
 #include "api/sink.h"
 #include "api/guard.h"
+<<<<<<< HEAD
+#include "api/left_open.h"
+=======
+>>>>>>> main
 #include "sink/file_sink.h"
 #include "sink/memory_sink.h"
 #include "sink/null_sink.h"
@@ -14,7 +18,11 @@ namespace {
 /// A new id around what `make` returns.
 template <class Make>
 dSoundSinkID create(const char* function, Make&& make) noexcept {
-    return guarded(function, dSoundSinkID{}, [&] { return new dxSoundSink{make()}; });
+    return guarded(function, dSoundSinkID{}, [&] {
+        auto id = std::make_unique<dxSoundSink>(dxSoundSink{make()});
+        keep(id.get());
+        return id.release();
+    });
 }
 
 } // namespace
@@ -49,6 +57,7 @@ dSoundSinkID dSoundSinkCreateOpenAL(void) {
 void dSoundSinkDestroy(dSoundSinkID sink) {
     if (!sink)
         return;
+    forget(sink);
     sink->sink->close();
     delete sink;
 }

@@ -1,9 +1,11 @@
 #include "api/guard.h"
 #include "api/ids.h"
+#include "api/left_open.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <string>
 
 namespace ode::sound {
@@ -29,11 +31,16 @@ using namespace ode::sound;
 
 dSoundWorldID dSoundWorldCreate(dSoftWorldID world) {
     require_id(world, "dSoundWorldCreate");
-    return guarded("dSoundWorldCreate", dSoundWorldID{}, [&] { return new dxSoundWorld(world); });
+    return guarded("dSoundWorldCreate", dSoundWorldID{}, [&] {
+        auto id = std::make_unique<dxSoundWorld>(world);
+        keep(id.get());
+        return id.release();
+    });
 }
 
 void dSoundWorldDestroy(dSoundWorldID world) {
     require_id(world, "dSoundWorldDestroy");
+    forget(world);
     for (dSoundListenerID listener : world->listeners)
         delete listener;
     delete world;

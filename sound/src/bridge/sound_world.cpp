@@ -17,11 +17,11 @@ SoundWorld& self(void* data) noexcept { return *static_cast<SoundWorld*>(data); 
 
 SoundWorld::SoundWorld(dSoftWorldID world) : world_(world) {}
 
-SoundWorld::~SoundWorld() {
+SoundWorld::~SoundWorld() { end(); }
+
+void SoundWorld::end() noexcept {
     ignore();
     on_world_end();
-    for (const auto& listener : scene_.all())
-        listener->for_each_sink([](Sink& sink) { sink.close(); });
 }
 
 void SoundWorld::observe() {
@@ -103,8 +103,16 @@ void SoundWorld::on_body_end(dSoftBodyID body) noexcept { scene_.end_body(body);
 void SoundWorld::on_world_end() noexcept {
     world_ = nullptr;
     observing_ = false;
-    if (failed_)
+    if (ended_)
         return;
+    ended_ = true;
+    if (!failed_)
+        play_out();
+    for (const auto& listener : scene_.all())
+        listener->for_each_sink([](Sink& sink) { sink.close(); });
+}
+
+void SoundWorld::play_out() noexcept {
     try {
         scene_.finish();
     } catch (const std::exception& e) {

@@ -24,6 +24,10 @@ public:
     Listener& add_listener();
     void remove_listener(Listener& listener) noexcept;
 
+    /// Lets the soft world go, plays out what still travels and closes the sinks of all listeners.
+    /// Nothing is heard after. Idempotent.
+    void end() noexcept;
+
     /// Spent on sound [s]; substeps are sampled.
     double seconds() const noexcept { return cost_.seconds(); }
 
@@ -36,9 +40,11 @@ public:
 private:
     void observe();
     void ignore() noexcept;
+    void play_out() noexcept;
 
     dSoftWorldID world_; ///< null once it has ended
     bool observing_ = false;
+    bool ended_ = false;
     bool failed_ = false; ///< out of memory, and told so
     Scene scene_;
     SampledCost cost_;

@@ -67,9 +67,13 @@ FileSink::FileSink(const std::string& path) : path_(path), writer_(writer_for(pa
 }
 
 bool FileSink::open(const Format& format) {
-    if (format_.rate != 0 && format == format_)
-        return descriptor_ >= 0;
-    if (format_.rate != 0 || descriptor_ < 0) {
+    if (descriptor_ < 0) {
+        error_.set("%s: closed already; make another sink", path_.c_str());
+        return false;
+    }
+    if (format == format_)
+        return true;
+    if (format_.rate != 0) {
         error_.set(
             "%s: already written with %d Hz and %d channels; make another sink for %d Hz and "
             "%d channels",

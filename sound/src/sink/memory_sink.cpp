@@ -5,8 +5,12 @@
 namespace ode::sound {
 
 bool MemorySink::open(const Format& format) {
+    if (closed_) {
+        error_.set("memory sink: closed already; make another");
+        return false;
+    }
     if (format == format_)
-        return !closed_;
+        return true;
     if (format_.rate != 0) {
         error_.set("memory sink: already open with %d Hz and %d channels; make another for %d Hz "
                    "and %d channels",

@@ -19,8 +19,12 @@ OpenAlSink::OpenAlSink(OpenAlDevice device, Tell tell)
     : device_(std::move(device)), tell_(std::move(tell)) {}
 
 bool OpenAlSink::open(const Format& format) {
+    if (dead_) {
+        error_.set("OpenAL sink: closed already; make another");
+        return false;
+    }
     if (format_.rate != 0 && format == format_)
-        return !dead_;
+        return true;
     if (format_.rate != 0) {
         error_.set("OpenAL sink: already open with %d Hz and %d channels; make another for %d Hz "
                    "and %d channels",
