@@ -30,7 +30,7 @@ struct Cloud {
     }
 
     void damp(std::size_t held, double alpha, double dt) {
-        damp_deformation(mass, inverse_mass, held, alpha, dt, state);
+        damp_deformation(mass, inverse_mass, held, {&alpha, 1}, dt, state);
     }
 
     Vec3 momentum() const {
