@@ -15,7 +15,7 @@
 // strikes; then a clang, again at each bounce. The lines of the spectrogram stand still from one
 // impact to the next, at the modes marked at its right edge, and change only in strength. Linear
 // tetrahedra are too stiff in bending: the lowest partial is two octaves above a real bowl's;
-// --order 2 brings it down, for several times the cost.
+// --order 2 brings it down, for twelve times the cost.
 
 #include "plots/partials.h"
 #include "plots/sound_picture.h"
@@ -42,7 +42,7 @@ constexpr const char* kAbout =
     "Expected: silence till sqrt(2 h / g) = 0.32 s, then a clang at each bounce; the lines of the\n"
     "spectrogram lie at the modes marked at its right edge and change only in strength. Linear\n"
     "tetrahedra are too stiff in bending: the lowest partial is two octaves above a real bowl's;\n"
-    "--order 2 brings it down, for several times the cost.";
+    "--order 2 brings it down, for twelve times the cost.";
 
 constexpr int kModes = 40;        // marked: about as many as lie below 20 kHz
 constexpr double kTop = 20000;    // [Hz] hearing ends

@@ -142,12 +142,13 @@ DSOFT_API void dSoftBodySetData(dSoftBodyID body,
                                 void* data); /**< yours; the library never looks */
 DSOFT_API void* dSoftBodyGetData(dSoftBodyID body);
 
-/* What a body is solved as: chosen before its first step, refused afterwards. Nodes of the mesh keep
- * their indices, places and velocities; the substep goes back to the library's choice. */
+/* What a body is solved as: chosen before its first step, refused afterwards. Nodes of the mesh
+ * keep their indices, places and velocities; the substep goes back to the library's choice. */
 
 /** Order of the elements. 1: four nodes, cheap, and octaves sharp where the body is thin. 2: ten
- * nodes, in tune, for several times the cost; a linear mesh is promoted, its mid-edge nodes come
- * after its own. @param order 1 or 2; 1 is refused for a mesh that has mid-edge nodes itself. */
+ * nodes, in tune, for about twelve times the cost of the same mesh; a linear mesh is promoted, its
+ * mid-edge nodes come after its own. @param order 1 or 2; 1 is refused for a mesh that has mid-edge
+ * nodes itself. */
 DSOFT_API int dSoftBodySetOrder(dSoftBodyID body, int order);
 DSOFT_API int dSoftBodyGetOrder(dSoftBodyID body);
 /** Constitutive law: "stvk" (St. Venant-Kirchhoff, the default: for what rings), "corotated"
@@ -231,7 +232,8 @@ typedef struct dSoftStatus {
 } dSoftStatus;
 DSOFT_API int dSoftBodyGetStatus(dSoftBodyID body, dSoftStatus* status);
 
-/** Elastic vibration modes of the body at rest, in its order, solids and pins, ascending, rigid ones left out.
+/** Elastic vibration modes of the body at rest, in its order, solids and pins, ascending, rigid
+ * ones left out.
  * @param frequencies  out: up to `count` frequencies [Hz].
  * @return how many were written. */
 DSOFT_API int dSoftBodyGetModes(dSoftBodyID body, int count, dReal* frequencies);

@@ -23,8 +23,9 @@ constexpr Solid rayleigh(double density, double young, double poisson, double al
 // above, the preset rings shorter than metal, below longer.
 constexpr const char* kCremer =
     "elastic constants and loss factor of Cremer & Heckl; beta meets the loss factor at 1 kHz";
-constexpr const char* kBronze = "elastic constants of UNS C51000, handbook values (ASM Handbook 2); "
-                                "no sourced damping: beta chosen for T60 5 s at 1 kHz";
+constexpr const char* kBronze =
+    "elastic constants of UNS C51000, handbook values (ASM Handbook 2); "
+    "no sourced damping: beta chosen for T60 5 s at 1 kHz";
 constexpr const char* kRubber =
     "natural rubber, unfilled, handbook values (Ashby, Materials Selection); "
     "no sourced damping: chosen for T60 0.22 s at 100 Hz and 0.03 s at 1 kHz";

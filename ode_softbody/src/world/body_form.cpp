@@ -97,8 +97,8 @@ CurveReport Body::set_form(const BodyForm& form) {
     if (form.curved && given_order_ == 2)
         throw InputError("the body's mesh has mid-edge nodes of its own, which tell its curvature; "
                          "only a linear mesh can be curved");
-    TetMesh mesh = given_order_ == 2 || mesh_.order == 1 ? mesh_
-                                                         : demote_to_linear(mesh_, given_nodes_);
+    TetMesh mesh =
+        given_order_ == 2 || mesh_.order == 1 ? mesh_ : demote_to_linear(mesh_, given_nodes_);
     if (form.order == 2)
         mesh = promote_to_quadratic(mesh);
     const CurveReport report = form.curved ? curve_surface(mesh) : CurveReport{};
@@ -113,9 +113,10 @@ void Body::build(TetMesh mesh, const std::string& model_name) {
     auto model = make_model(model_name, mesh, solids_);
     const auto least = std::min_element(model->mass().begin(), model->mass().end());
     if (!(*least > 0))
-        throw InputError(format("node %td would have the mass %g kg; its elements are too distorted "
-                                "for this order",
-                                least - model->mass().begin(), *least));
+        throw InputError(
+            format("node %td would have the mass %g kg; its elements are too distorted "
+                   "for this order",
+                   least - model->mass().begin(), *least));
     NodeState state{extended(mesh, given_nodes_, state_.position),
                     extended(mesh, given_nodes_, state_.velocity)};
     NodeArray external(mesh.node.size());
@@ -138,15 +139,13 @@ void Body::build(TetMesh mesh, const std::string& model_name) {
     integrator_ = make_integrator("central_difference", mesh_.node.size());
     total_mass_ = std::accumulate(mass().begin(), mass().end(), 0.0);
     std::vector<int> pinned = std::move(pinned_);
-    std::erase_if(pinned,
-                  [&](int node) { return static_cast<std::size_t>(node) >= given_nodes_; });
+    std::erase_if(pinned, [&](int node) { return static_cast<std::size_t>(node) >= given_nodes_; });
     unpin();
     double viscous = 0;
     for (const Solid& solid : solids_)
         viscous = std::max(viscous, viscous_time(solid));
     // Unpinned: a bound for whatever is held later.
-    critical_step_ =
-        ode::soft::critical_step(*model_, inverse_mass_, state_.position, viscous);
+    critical_step_ = ode::soft::critical_step(*model_, inverse_mass_, state_.position, viscous);
     pin(pinned);
     use_default_substep();
 }

@@ -1,8 +1,8 @@
 // Accuracy case A12: one mode of a free steel bar dies away by T60 = 6.908 / d, d = (alpha + beta
 // w^2) / 2.
+#include "mesh/generate.h"
 #include "modal/solve_modes.h"
 #include "model/damping.h"
-#include "mesh/generate.h"
 #include "world/soft_world.h"
 
 #include <gtest/gtest.h>
@@ -72,7 +72,8 @@ void rings_down_as_predicted(int order, double alpha, double beta) {
         ASSERT_FALSE(body.stopped());
         ASSERT_GT(n, 300);
         const double decay = -(n * sty - st * sy) / (n * stt - st * st);
-        EXPECT_NEAR(t60_of_decay(decay), t60, 0.01 * t60) << "order " << order << ", " << f << " Hz";
+        EXPECT_NEAR(t60_of_decay(decay), t60, 0.01 * t60)
+            << "order " << order << ", " << f << " Hz";
     }
     dSpaceDestroy(space);
     dWorldDestroy(world);
