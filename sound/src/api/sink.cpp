@@ -1,5 +1,5 @@
-#include "api/sink.h"
 #include "api/guard.h"
+#include "api/sink.h"
 #include "sink/file_sink.h"
 #include "sink/memory_sink.h"
 #include "sink/null_sink.h"
