@@ -37,6 +37,9 @@ dSoftBodyID build(World& world, const Drop& drop) {
 
     dCreatePlane(world.space(), 0, 0, 1, 0);
     const dSoftBodyID body = made(dSoftBodyCreate(world.soft(), mesh, &solid));
+    if ((drop.order && !dSoftBodySetOrder(body, drop.order)) ||
+        !dSoftBodySetMaterialModel(body, drop.model.c_str()))
+        throw Refused("the body can't be had in this form");
     const dQuaternion q = {std::cos(drop.tilt / 2), std::sin(drop.tilt / 2), 0, 0};
     dSoftBodyRotate(body, q);
     dVector3 center;

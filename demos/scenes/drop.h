@@ -10,6 +10,8 @@ namespace scenes {
 struct Drop {
     std::string mesh;               ///< file to load; empty: the bowl below
     std::string material = "steel"; ///< a preset's name
+    int order = 0;                  ///< of the elements; 0: the mesh's own
+    std::string model = "stvk";     ///< constitutive law
     double height = 0.5;            ///< of the lowest node above the floor [m]
     double tilt = 0.3;              ///< from upright, about x [rad]
     double step = 1.0 / 240;        ///< of ODE [s]

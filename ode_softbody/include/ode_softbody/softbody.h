@@ -132,11 +132,35 @@ DSOFT_API const char* dSoftSolidPresetName(int i);
 /** A body at rest in the mesh's own coordinates. Place it before the first step. */
 DSOFT_API dSoftBodyID dSoftBodyCreate(dSoftWorldID world, dSoftMeshID mesh,
                                       const dSoftSolid* solid);
+/** A body of several materials: solids[i] for the mesh's i-th physical group, in the order in which
+ * its file names them. @param count of the groups, or 1 for one material throughout. */
+DSOFT_API dSoftBodyID dSoftBodyCreateGroups(dSoftWorldID world, dSoftMeshID mesh,
+                                            const dSoftSolid* solids, int count);
 DSOFT_API void dSoftBodyDestroy(dSoftBodyID body);
 
 DSOFT_API void dSoftBodySetData(dSoftBodyID body,
                                 void* data); /**< yours; the library never looks */
 DSOFT_API void* dSoftBodyGetData(dSoftBodyID body);
+
+/* What a body is solved as: chosen before its first step, refused afterwards. Nodes of the mesh
+ * keep their indices, places and velocities; the substep goes back to the library's choice. */
+
+/** Order of the elements. 1: four nodes, cheap, and octaves sharp where the body is thin. 2: ten
+ * nodes, in tune, for about twelve times the cost of the same mesh; a linear mesh is promoted, its
+ * mid-edge nodes come after its own. @param order 1 or 2; 1 is refused for a mesh that has mid-edge
+ * nodes itself. */
+DSOFT_API int dSoftBodySetOrder(dSoftBodyID body, int order);
+DSOFT_API int dSoftBodyGetOrder(dSoftBodyID body);
+/** Constitutive law: "stvk" (St. Venant-Kirchhoff, the default: for what rings), "corotated"
+ * (small strain, large rotation) or "stable-neo-hookean" (large strain, recovers from inversion).
+ * At small strain all three are Hooke's. */
+DSOFT_API int dSoftBodySetMaterialModel(dSoftBodyID body, const char* name);
+DSOFT_API const char* dSoftBodyGetMaterialModel(dSoftBodyID body); /**< borrowed until it is set */
+/** Gives a body of flat facets its round surface back, by moving mid-edge nodes; edges sharper than
+ * 50 degrees stay sharp. Mass and centre of mass change a little. Needs order 2 of a linear mesh.
+ * @param curved 1, or 0 for straight edges again.
+ * @param moved  out, or NULL: surface edges that are curved now. */
+DSOFT_API int dSoftBodySetCurved(dSoftBodyID body, int curved, int* moved);
 
 /** Substep [s]: 0 lets the library choose 0.9 of the critical step. Refused above the critical. */
 DSOFT_API int dSoftBodySetSubstep(dSoftBodyID body, dReal dt);
@@ -153,7 +177,8 @@ DSOFT_API int dSoftBodySetLinearVel(dSoftBodyID body, dReal x, dReal y, dReal z)
 /** Adds a spin about the centre of mass [rad/s] to the nodes' velocities. */
 DSOFT_API int dSoftBodyAddAngularVel(dSoftBodyID body, dReal x, dReal y, dReal z);
 
-/** Holds nodes where they are. @return number of nodes held. */
+/** Holds nodes where they are; of a promoted mesh also the middle of each edge whose ends are held.
+ * @return number of nodes held. */
 DSOFT_API int dSoftBodyPinNodes(dSoftBodyID body, const int* nodes, int count);
 /** Frees all held nodes. */
 DSOFT_API void dSoftBodyUnpin(dSoftBodyID body);
@@ -171,13 +196,15 @@ typedef struct dSoftContact {
 DSOFT_API dSoftContact dSoftContactDefault(void);
 DSOFT_API int dSoftBodySetContact(dSoftBodyID body, const dSoftContact* contact);
 
-/** Positions and velocities of all nodes in the mesh's order; borrowed until the next step.
+/** Positions and velocities of all nodes in the mesh's order; borrowed until the next step or
+ * change of order.
  * @param first  out: x of node 0.
  * @param stride out: dReals from node to node.
  * @return node count. */
 DSOFT_API int dSoftBodyGetPositions(dSoftBodyID body, const dReal** first, int* stride);
 DSOFT_API int dSoftBodyGetVelocities(dSoftBodyID body, const dReal** first, int* stride);
-/** Surface triangles, three node indices each, outward; borrowed while the body lives.
+/** Surface triangles, three node indices each, outward; borrowed while the body lives and
+ * keeps its order.
  * @return triangle count. */
 DSOFT_API int dSoftBodyGetTriangles(dSoftBodyID body, const int** first);
 
@@ -205,7 +232,8 @@ typedef struct dSoftStatus {
 } dSoftStatus;
 DSOFT_API int dSoftBodyGetStatus(dSoftBodyID body, dSoftStatus* status);
 
-/** Elastic vibration modes of the body at rest as it is now pinned, ascending, rigid ones left out.
+/** Elastic vibration modes of the body at rest, in its order, solids and pins, ascending, rigid
+ * ones left out.
  * @param frequencies  out: up to `count` frequencies [Hz].
  * @return how many were written. */
 DSOFT_API int dSoftBodyGetModes(dSoftBodyID body, int count, dReal* frequencies);

@@ -36,8 +36,10 @@ dSoftBodyID dSoftBodyCreate(dSoftWorldID world, dSoftMeshID mesh, const dSoftSol
     require_id(world, __func__);
     require_id(mesh, __func__);
     require_id(solid, __func__);
-    return guarded(__func__, dSoftBodyID{},
-                   [&] { return to_id(from_id(world).create_body(mesh->mesh, from_c(*solid))); });
+    return guarded(__func__, dSoftBodyID{}, [&] {
+        const Solid one = from_c(*solid);
+        return to_id(from_id(world).create_body(mesh->mesh, {&one, 1}));
+    });
 }
 
 void dSoftBodyDestroy(dSoftBodyID id) {
@@ -213,9 +215,10 @@ int dSoftBodyGetModes(dSoftBodyID id, int count, dReal* frequencies) {
         ModalOptions options;
         options.order = body.mesh().order;
         options.mass = MassKind::kLumped; // as the body moves
+        options.estimate = false;
         options.clamped.assign(body.pinned().begin(), body.pinned().end());
         options.max_modes = static_cast<std::size_t>(std::max(count, 0));
-        const ModalModel modes = solve_modes(body.mesh(), {&body.solid(), 1}, options);
+        const ModalModel modes = solve_modes(body.mesh(), body.solids(), options);
         std::copy(modes.frequency.begin(), modes.frequency.end(), frequencies);
         return static_cast<int>(modes.mode_count());
     });

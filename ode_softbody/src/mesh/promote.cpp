@@ -28,4 +28,17 @@ TetMesh promote_to_quadratic(const TetMesh& mesh) {
     return out;
 }
 
+TetMesh demote_to_linear(const TetMesh& mesh, std::size_t corners) {
+    TetMesh out;
+    out.group = mesh.group;
+    out.group_name = mesh.group_name;
+    out.node.assign(mesh.node.begin(), mesh.node.begin() + static_cast<std::ptrdiff_t>(corners));
+    out.element.reserve(4 * mesh.element_count());
+    for (std::size_t e = 0; e < mesh.element_count(); ++e) {
+        const auto n = mesh.nodes_of(e).first(4);
+        out.element.insert(out.element.end(), n.begin(), n.end());
+    }
+    return out;
+}
+
 } // namespace ode::soft

@@ -1,17 +1,11 @@
 #include "world/body.h"
 
-#include "base/error.h"
 #include "collide/ray.h"
-#include "integrate/critical_step.h"
 #include "integrate/mass_damping.h"
-#include "mesh/quality.h"
-#include "model/check_solid.h"
-#include "model/stvk_linear.h"
 #include "world/soft_world.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace ode::soft {
 namespace {
@@ -39,30 +33,6 @@ double rung_above(double stretch) noexcept {
 }
 
 } // namespace
-
-Body::Body(SoftWorld& world, const TetMesh& mesh, const Solid& solid)
-    : world_(world), mesh_(mesh), solid_(solid) {
-    check_mesh(mesh_, "mesh");
-    check_solid(solid_);
-    surface_ = extract_surface(mesh_);
-    model_ = std::make_unique<StvkLinear>(mesh_, solid_);
-
-    const std::size_t nodes = mesh_.node.size();
-    integrator_ = make_integrator("central_difference", nodes);
-    state_ = {NodeArray(nodes), NodeArray(nodes)};
-    checkpoint_ = state_;
-    force_ = NodeArray(nodes);
-    external_ = NodeArray(nodes);
-    for (std::size_t i = 0; i < nodes; ++i)
-        state_.position[i] = mesh_.node[i];
-    unpin();
-    total_mass_ = std::accumulate(mass().begin(), mass().end(), 0.0);
-    critical_step_ =
-        ode::soft::critical_step(*model_, inverse_mass_, state_.position, viscous_time(solid_));
-    use_default_substep();
-    contact_nodes_ = SurfaceNodes(mesh_, surface_, mass());
-    geom_ = create_soft_geom(world.space(), *this);
-}
 
 Body::~Body() {
     if (geom_)
@@ -132,14 +102,27 @@ void Body::add_spin(const Vec3& omega) noexcept {
             state_.velocity[i] += omega.cross(state_.position[i] - center);
 }
 
+void Body::hold(int node) noexcept {
+    const auto i = static_cast<std::size_t>(node);
+    if (inverse_mass_[i] == 0)
+        return;
+    inverse_mass_[i] = 0;
+    state_.velocity[i].setZero();
+    pinned_.insert(std::lower_bound(pinned_.begin(), pinned_.end(), node), node);
+}
+
 void Body::pin(std::span<const int> nodes) noexcept {
-    for (const int node : nodes) {
-        const auto i = static_cast<std::size_t>(node);
-        if (inverse_mass_[i] == 0)
-            continue;
-        inverse_mass_[i] = 0;
-        state_.velocity[i].setZero();
-        pinned_.insert(std::lower_bound(pinned_.begin(), pinned_.end(), node), node);
+    for (const int node : nodes)
+        hold(node);
+    if (mesh_.node.size() == given_nodes_)
+        return;
+    const auto held = [&](int node) { return inverse_mass_[static_cast<std::size_t>(node)] == 0; };
+    for (std::size_t e = 0; e < mesh_.element_count(); ++e) {
+        const auto n = mesh_.nodes_of(e);
+        for (std::size_t i = 0; i < 6; ++i)
+            if (held(n[static_cast<std::size_t>(kTetEdge[i][0])]) &&
+                held(n[static_cast<std::size_t>(kTetEdge[i][1])]))
+                hold(n[4 + i]);
     }
 }
 
@@ -156,6 +139,7 @@ void Body::add_force(int node, const Vec3& force) noexcept {
 }
 
 void Body::begin_step() noexcept {
+    stepped_ = true;
     checkpoint_ = state_;
     checkpoint_dt_ = last_dt_;
     extremes_ = {};
@@ -211,11 +195,11 @@ void Body::note(const StrainExtremes& now) noexcept {
 
 void Body::advance(double dt) noexcept {
     note(integrator_->step(*model_, NodeInertia{inverse_mass_}, dt, state_, force_));
-    if (solid_.alpha == 0)
+    if (max_alpha_ == 0)
         return;
     undamped_ += dt;
-    if (undamped_ >= std::min(kDampingInterval * dt, kDampingLoss / solid_.alpha)) {
-        damp_deformation(mass(), inverse_mass_, pinned_.size(), solid_.alpha, undamped_, state_);
+    if (undamped_ >= std::min(kDampingInterval * dt, kDampingLoss / max_alpha_)) {
+        damp_deformation(mass(), inverse_mass_, pinned_.size(), alpha_, undamped_, state_);
         undamped_ = 0;
     }
 }

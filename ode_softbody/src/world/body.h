@@ -3,6 +3,7 @@
 #include "collide/soft_geom.h"
 #include "couple/node_contact.h"
 #include "integrate/integrator.h"
+#include "mesh/curve.h"
 #include "mesh/surface.h"
 #include "mesh/tet_mesh.h"
 #include "model/elastic_model.h"
@@ -10,19 +11,31 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace ode::soft {
 
 class SoftWorld;
 
+/// What a body is solved as.
+struct BodyForm {
+    int order = 1;              ///< of its elements
+    std::string model = "stvk"; ///< one of model_names()
+    bool curved = false;        ///< curve_surface() on the promoted mesh
+};
+
 /// A soft body: a meshed solid, its motion, its surface and its geom in ODE's space.
 /// Node arrays are world frame, in the mesh's order.
 class Body final : private SoftGeomClient {
 public:
-    /// At rest in the mesh's own coordinates, with a geom in the world's space.
-    /// @throws InputError for a mesh or a solid that no body can be made of.
-    Body(SoftWorld& world, const TetMesh& mesh, const Solid& solid);
+    /// At rest in the mesh's own coordinates, with a geom in the world's space; in elements of the
+    /// mesh's order.
+    /// @param solids  one a group of the mesh, or one for all of it.
+    /// @throws InputError for a mesh or solids that no body can be made of.
+    Body(SoftWorld& world, const TetMesh& mesh, std::span<const Solid> solids);
+    Body(SoftWorld& world, const TetMesh& mesh, const Solid& solid)
+        : Body(world, mesh, {&solid, 1}) {}
     ~Body();
     Body(const Body&) = delete;
     Body& operator=(const Body&) = delete;
@@ -31,11 +44,21 @@ public:
     static Body* behind(dGeomID geom) noexcept;
 
     SoftWorld& world() const noexcept { return world_; }
+    /// Of the body's order: the nodes of the mesh it was made of come first, under their indices.
     const TetMesh& mesh() const noexcept { return mesh_; }
     const Surface& surface() const noexcept { return surface_; }
-    const Solid& solid() const noexcept { return solid_; }
+    const std::vector<Solid>& solids() const noexcept { return solids_; } ///< by mesh().group
     const ElasticModel& model() const noexcept { return *model_; }
     dGeomID geom() const noexcept { return geom_; } ///< nullptr once the application destroyed it
+
+    const BodyForm& form() const noexcept { return form_; }
+    /// Solves the body as something else from now on. Its nodes stay where they are, with their
+    /// velocities, forces and pins; new ones follow the motion of their element. The substep
+    /// becomes the default.
+    /// @return of curve_surface(), when form.curved.
+    /// @throws InputError and changes nothing when the body has been stepped or cannot be had in
+    ///         this form.
+    CurveReport set_form(const BodyForm& form);
 
     const NodeState& state() const noexcept { return state_; }
     std::span<const double> mass() const noexcept { return model_->mass(); } ///< of each node [kg]
@@ -52,7 +75,8 @@ public:
     void set_velocity(const Vec3& velocity) noexcept;
     void add_spin(const Vec3& omega) noexcept; ///< about the centre of mass [rad/s]
 
-    /// Holds nodes where they are, at zero velocity.
+    /// Holds nodes where they are, at zero velocity; an edge added by promotion is held at its
+    /// middle when it is at both ends, or a clamped face would leak.
     void pin(std::span<const int> nodes) noexcept;
     void unpin() noexcept;
     std::span<const int> pinned() const noexcept { return pinned_; } ///< ascending
@@ -80,6 +104,10 @@ private:
     friend class SoftWorld;
     friend class RigidExchange;
 
+    /// Takes over a mesh that has the nodes of the body's own first. @throws InputError
+    void build(TetMesh mesh, const std::string& model);
+    void hold(int node) noexcept;
+
     Aabb aabb() noexcept override;
     void on_pair(dGeomID other) noexcept override;
     int on_ray(dGeomID ray, int flags, dContactGeom* contact, int skip) noexcept override;
@@ -104,7 +132,10 @@ private:
 
     SoftWorld& world_;
     TetMesh mesh_;
-    Solid solid_;
+    std::size_t given_nodes_; ///< of the mesh that the body was made of, first in mesh_
+    int given_order_;
+    std::vector<Solid> solids_;
+    BodyForm form_;
     Surface surface_;
     std::unique_ptr<ElasticModel> model_;
     std::unique_ptr<Integrator> integrator_;
@@ -113,6 +144,8 @@ private:
     NodeArray force_;      ///< [N]
     NodeArray external_;   ///< the application's, constant over a step [N]
     bool has_external_ = false;
+    std::vector<double> alpha_; ///< mass-proportional damping, one for all or one a node [1/s]
+    double max_alpha_;
     std::vector<double> inverse_mass_; ///< [1/kg], 0: held
     std::vector<int> pinned_;
     SurfaceNodes contact_nodes_; ///< area, mass, neighbourhood of each surface node
@@ -128,6 +161,7 @@ private:
     StrainExtremes extremes_;
     std::size_t bearing_points_ = 0;
     int failures_ = 0; ///< attempts at this step that went unstable
+    bool stepped_ = false;
     bool stopped_ = false;
     bool collided_ = false;     ///< the space has looked at the geom since the last step
     std::vector<dGeomID> pair_; ///< rigid geoms met since the last step

@@ -35,8 +35,8 @@ SoftWorld::~SoftWorld() {
     observer_.clear();
 }
 
-Body& SoftWorld::create_body(const TetMesh& mesh, const Solid& solid) {
-    return *body_.emplace_back(std::make_unique<Body>(*this, mesh, solid));
+Body& SoftWorld::create_body(const TetMesh& mesh, std::span<const Solid> solids) {
+    return *body_.emplace_back(std::make_unique<Body>(*this, mesh, solids));
 }
 
 void SoftWorld::destroy_body(Body& body) noexcept {

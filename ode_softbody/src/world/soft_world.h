@@ -41,8 +41,8 @@ public:
     double time() const noexcept { return time_; } ///< stepped since creation [s]
     const WorldStats& stats() const noexcept { return stats_; }
 
-    /// @throws InputError
-    Body& create_body(const TetMesh& mesh, const Solid& solid);
+    /// @param solids  one a group of the mesh, or one for all of it.
+    Body& create_body(const TetMesh& mesh, std::span<const Solid> solids); ///< @throws InputError
     void destroy_body(Body& body) noexcept;
     std::span<const std::unique_ptr<Body>> bodies() const noexcept { return body_; }
 
