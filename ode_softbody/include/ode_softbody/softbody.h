@@ -62,7 +62,7 @@ DSOFT_API int dSoftWorldGetStats(dSoftWorldID world, dSoftWorldStats* stats);
 
 /* ---- Mesh -------------------------------------------------------------------------------- */
 
-/** Reads linear tetrahedra from Gmsh .msh (2.2, 4.1), TetGen .node/.ele, legacy .vtk or Medit
+/** Reads linear or quadratic tetrahedra from Gmsh .msh (2.2, 4.1), TetGen .node/.ele, legacy .vtk or Medit
  * .mesh, chosen by the file's ending. The mesh belongs to the caller; bodies keep what they need of
  * it. */
 DSOFT_API dSoftMeshID dSoftMeshLoad(const char* path);
