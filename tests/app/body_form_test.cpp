@@ -1,4 +1,4 @@
-// Bodies of quadratic elements, other constitutive laws and curved surfaces, through the public API.
+// Quadratic elements, other constitutive laws and curved surfaces, through the public API.
 #include "support/ode_app.h"
 
 #include <ode_softbody/softbody.hpp>
