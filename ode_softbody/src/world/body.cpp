@@ -178,12 +178,17 @@ void Body::relax_margin() noexcept {
     calm_steps_ = 0;
 }
 
-void Body::begin_substep(const Vec3& gravity) noexcept {
-    for (std::size_t i = 0; i < force_.size(); ++i)
-        force_[i] = mass()[i] * gravity;
+void Body::take_load(const Vec3& gravity) noexcept {
+    const std::span<const double> m = mass();
+    for (std::size_t i = 0; i < load_.size(); ++i)
+        load_[i] = m[i] * gravity;
     if (has_external_)
-        for (std::size_t i = 0; i < force_.size(); ++i)
-            force_[i] += external_[i];
+        for (std::size_t i = 0; i < load_.size(); ++i)
+            load_[i] += external_[i];
+}
+
+void Body::begin_substep() noexcept {
+    std::copy_n(load_.data(), NodeArray::kStride * load_.size(), force_.data());
     note(integrator_->evaluate(*model_, state_, force_));
     bearing_points_ = 0;
 }

@@ -117,8 +117,10 @@ private:
     /// Brings the velocity to half of `dt` before the positions' time, where the integrator keeps
     /// it.
     void fit_velocity(double dt) noexcept;
-    void begin_substep(const Vec3& gravity) noexcept; ///< force_ becomes all that acts but contact
-    void advance(double dt) noexcept;                 ///< by force_
+    /// Weight and external forces become those of the substeps to come.
+    void take_load(const Vec3& gravity) noexcept;
+    void begin_substep() noexcept;    ///< force_ becomes all that acts but contact
+    void advance(double dt) noexcept; ///< by force_
     void note(const StrainExtremes& now) noexcept;
     void end_step() noexcept;
     /// Makes room for the stretch met in this step. @return whether that took a shorter substep.
@@ -143,6 +145,7 @@ private:
     NodeState checkpoint_; ///< at the start of the step, to return to when the step fails
     NodeArray force_;      ///< [N]
     NodeArray external_;   ///< the application's, constant over a step [N]
+    NodeArray load_;       ///< gravity and external_ [N]
     bool has_external_ = false;
     std::vector<double> alpha_; ///< mass-proportional damping, one for all or one a node [1/s]
     double max_alpha_;

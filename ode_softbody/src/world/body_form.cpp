@@ -136,6 +136,7 @@ void Body::build(TetMesh mesh, const std::string& model_name) {
     checkpoint_ = state_;
     external_ = std::move(external);
     force_ = NodeArray(mesh_.node.size());
+    load_ = NodeArray(mesh_.node.size());
     integrator_ = make_integrator("central_difference", mesh_.node.size());
     total_mass_ = std::accumulate(mass().begin(), mass().end(), 0.0);
     std::vector<int> pinned = std::move(pinned_);

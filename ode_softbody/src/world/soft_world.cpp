@@ -121,10 +121,12 @@ long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
     const Vec3 gravity(g[0], g[1], g[2]);
     const bool observed = std::any_of(observer_.begin(), observer_.end(),
                                       [](const auto& o) { return o->wants_substeps(); });
+    for (const auto& body : body_)
+        body->take_load(gravity);
     for (long i = 1; i <= substeps; ++i) {
         for (const auto& body : body_)
             if (!body->stopped())
-                body->begin_substep(gravity);
+                body->begin_substep();
         const ContactTally tally = exchange_.add_forces(dt);
         stats_.contact_tests += tally.tests;
         stats_.contact_points += tally.bearing;

@@ -1,9 +1,6 @@
 #include "api/sink.h"
 #include "api/guard.h"
-<<<<<<< HEAD
 #include "api/left_open.h"
-=======
->>>>>>> main
 #include "sink/file_sink.h"
 #include "sink/memory_sink.h"
 #include "sink/null_sink.h"

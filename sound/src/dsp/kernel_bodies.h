@@ -12,6 +12,7 @@ namespace {
 using Lane [[gnu::vector_size(32)]] = double;
 using Loose [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = double;
 using Bits [[gnu::vector_size(32)]] = std::int64_t;
+using LooseBits [[gnu::vector_size(32), gnu::aligned(8), gnu::may_alias]] = std::int64_t;
 using Ints [[gnu::vector_size(16)]] = std::int32_t;
 
 constexpr int kTaps = 16;
@@ -20,7 +21,9 @@ constexpr int kPhases = 256;
 
 inline Lane load(const double* p) { return *reinterpret_cast<const Loose*>(p); }
 inline void store(double* p, const Lane& v) { *reinterpret_cast<Loose*>(p) = v; }
+inline void store_bits(std::int64_t* p, const Bits& v) { *reinterpret_cast<LooseBits*>(p) = v; }
 inline Lane fill(double v) { return Lane{v, v, v, v}; }
+inline Bits fill_bits(std::int64_t v) { return Bits{v, v, v, v}; }
 
 /// As wide as the machine is, for loops over contiguous numbers.
 #if defined(__AVX512F__)
@@ -43,6 +46,23 @@ inline Lane root(const Lane& v) {
 #else
     return Lane{__builtin_sqrt(v[0]), __builtin_sqrt(v[1]), __builtin_sqrt(v[2]),
                 __builtin_sqrt(v[3])};
+#endif
+}
+
+/// GCC 12 makes two halves of the conversions and puts them together again.
+inline Ints truncate(const Lane& v) {
+#if defined(__AVX2__)
+    return reinterpret_cast<Ints>(_mm256_cvttpd_epi32(v));
+#else
+    return __builtin_convertvector(v, Ints);
+#endif
+}
+
+inline Lane widen(const Ints& v) {
+#if defined(__AVX2__)
+    return _mm256_cvtepi32_pd(reinterpret_cast<__m128i>(v));
+#else
+    return __builtin_convertvector(v, Lane);
 #endif
 }
 
@@ -150,9 +170,9 @@ void mix(int nodes, int rows, const double* const* row, const double* weight, do
 
 /// Retarded times and weighted values of four nodes at one ear.
 struct Arrivals {
-    std::int32_t whole[4]; ///< delay rounded down [samples]
-    std::int32_t phase[4]; ///< nearest row of the splat table
-    double weight[3][4];   ///< of the rows before it, at it and behind it
+    std::int64_t cell[4]; ///< of the ring, where the first tap goes
+    std::int64_t row[4];  ///< offset in the splat table of the row nearest to the fraction
+    double weight[3][4];  ///< of the rows before it, at it and behind it
 };
 
 /// What all nodes have in common at one ear.
@@ -164,14 +184,18 @@ struct Aim {
     Lane gain;
     Lane least;
     Lane most;
+    Bits origin; ///< cell of a tap without delay
+    Bits mask;
 };
 
 inline Aim aim(const SplatEar& ear) {
     const Lane mach = load(ear.mach);
     const double rest = 1.0 - (mach[0] * mach[0] + mach[1] * mach[1] + mach[2] * mach[2]);
-    return {load(ear.position), mach,           fill(rest),
-            fill(1.0 / rest),   fill(ear.gain), fill(ear.min_delay),
-            fill(ear.max_delay)};
+    return {load(ear.position),  mach,
+            fill(rest),          fill(1.0 / rest),
+            fill(ear.gain),      fill(ear.min_delay),
+            fill(ear.max_delay), fill_bits(ear.sample - kBefore),
+            fill_bits(ear.mask)};
 }
 
 template <Facing kFacing>
@@ -226,52 +250,62 @@ inline void arrive(const SplatSurface& surface, const Aim& ear, int i, Lane& lat
     value = sane ? value : Lane{};
     latest = sane & (when > latest) ? when : latest;
 
-    const Ints whole = __builtin_convertvector(when, Ints);
-    const Lane place = (when - __builtin_convertvector(whole, Lane)) * fill(kPhases);
-    const Ints phase = __builtin_convertvector(place + fill(0.5), Ints);
+    const Ints whole = truncate(when);
+    const Lane place = (when - widen(whole)) * fill(kPhases);
+    const Ints phase = truncate(place + fill(0.5));
     // Lagrange's parabola through three rows.
-    const Lane u = place - __builtin_convertvector(phase, Lane);
+    const Lane u = place - widen(phase);
     const Lane half = fill(0.5) * u * value;
     store(out.weight[0], half * (u - fill(1.0)));
     store(out.weight[1], value - u * u * value);
     store(out.weight[2], half * (u + fill(1.0)));
-    for (int k = 0; k < 4; ++k) {
-        out.whole[k] = whole[k];
-        out.phase[k] = phase[k];
-    }
+    store_bits(out.cell, (ear.origin + __builtin_convertvector(whole, Bits)) & ear.mask);
+    store_bits(out.row, __builtin_convertvector(phase, Bits) * kTaps);
 }
 
-template <Facing kFacing>
-double splat(const SplatSurface& surface, const SplatEar* ear, int ears) {
-    constexpr int kMaxEars = 2;
+/// One value into the ring of an ear.
+inline void put(double* cell, const double* row, double before, double at, double behind) {
+    for (int j = 0; j < kTaps; j += kWide)
+        store_wide(cell + j,
+                   (load_wide(cell + j) + fill_wide(before) * load_wide(row - kTaps + j)) +
+                       (fill_wide(at) * load_wide(row + j) +
+                        fill_wide(behind) * load_wide(row + kTaps + j)));
+}
+
+/// The number of ears is known here, so that everything stays in registers that can.
+template <Facing kFacing, int kEars>
+double splat_to(const SplatSurface& surface, const SplatEar* ear) {
     Lane latest{};
-    Aim aims[kMaxEars];
-    for (int e = 0; e < ears; ++e)
+    Aim aims[kEars];
+    double* ring[kEars][SplatEar::kCopies];
+    for (int e = 0; e < kEars; ++e) {
         aims[e] = aim(ear[e]);
+        for (int c = 0; c < SplatEar::kCopies; ++c)
+            ring[e][c] = ear[e].ring[c];
+    }
+    const double* const table = surface.table;
     for (int i = 0; i < surface.nodes; i += 4) {
-        Arrivals arrival[kMaxEars];
-        for (int e = 0; e < ears; ++e)
+        Arrivals arrival[kEars];
+        for (int e = 0; e < kEars; ++e)
             arrive<kFacing>(surface, aims[e], i, latest, arrival[e]);
-        for (int k = 0; k < 4; ++k) {
-            for (int e = 0; e < ears; ++e) {
+#pragma GCC unroll 4
+        for (int k = 0; k < 4; ++k)
+#pragma GCC unroll 2
+            for (int e = 0; e < kEars; ++e) {
                 const Arrivals& a = arrival[e];
-                double* cell =
-                    ear[e].ring[k & 1] + ((ear[e].sample + a.whole[k] - kBefore) & ear[e].mask);
-                const double* row = surface.table + static_cast<std::int64_t>(a.phase[k]) * kTaps;
-                const Wide before = fill_wide(a.weight[0][k]);
-                const Wide at = fill_wide(a.weight[1][k]);
-                const Wide behind = fill_wide(a.weight[2][k]);
-                for (int j = 0; j < kTaps; j += kWide)
-                    store_wide(cell + j,
-                               (load_wide(cell + j) + before * load_wide(row - kTaps + j)) +
-                                   (at * load_wide(row + j) + behind * load_wide(row + kTaps + j)));
+                put(ring[e][k % SplatEar::kCopies] + a.cell[k], table + a.row[k], a.weight[0][k],
+                    a.weight[1][k], a.weight[2][k]);
             }
-        }
     }
     double last = 0.0;
     for (int k = 0; k < 4; ++k)
         last = latest[k] > last ? latest[k] : last;
     return last;
+}
+
+template <Facing kFacing>
+double splat(const SplatSurface& surface, const SplatEar* ear, int ears) {
+    return ears == 2 ? splat_to<kFacing, 2>(surface, ear) : splat_to<kFacing, 1>(surface, ear);
 }
 
 } // namespace
