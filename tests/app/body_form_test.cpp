@@ -1,4 +1,4 @@
-// Bodies of quadratic elements, other constitutive laws and curved surfaces, through the public API.
+// Quadratic elements, other constitutive laws and curved surfaces, through the public API.
 #include "support/ode_app.h"
 
 #include <ode_softbody/softbody.hpp>
@@ -184,7 +184,8 @@ TEST(BodyForm, ModesAreThoseOfTheOrder) {
     MeshHandle mesh(dSoftMeshCreateBar(0.316, 0.02, 0.01, 16, 1, 1));
     const dSoftSolid steel = dSoftSolidDefault();
     dSoftBodyID bar = dSoftBodyCreate(app.soft, mesh, &steel);
-    const double expected = 1.0279 * 0.01 / (0.316 * 0.316) * std::sqrt(steel.young / steel.density);
+    const double expected =
+        1.0279 * 0.01 / (0.316 * 0.316) * std::sqrt(steel.young / steel.density);
     dReal linear = 0, quadratic = 0;
     ASSERT_EQ(dSoftBodyGetModes(bar, 1, &linear), 1);
     ASSERT_EQ(dSoftBodySetOrder(bar, 2), 1);
@@ -218,7 +219,8 @@ TEST(BodyForm, AQuadraticBodyRingsAtTheModeItPredicts) {
     const double rest = x[static_cast<std::size_t>(3 * tip + 2)];
     for (int i = 0; i < 1010; ++i) {
         app.step(h);
-        z.push_back(packed(bar, dSoftBodyGetPositions)[static_cast<std::size_t>(3 * tip + 2)] - rest);
+        z.push_back(packed(bar, dSoftBodyGetPositions)[static_cast<std::size_t>(3 * tip + 2)] -
+                    rest);
     }
     // Twenty periods hold the mode's frequency to a fraction of a per cent: it carries nearly all
     // of the tip's motion, others scatter the crossings within a period, as 1/20 of it.
