@@ -62,9 +62,9 @@ DSOFT_API int dSoftWorldGetStats(dSoftWorldID world, dSoftWorldStats* stats);
 
 /* ---- Mesh -------------------------------------------------------------------------------- */
 
-/** Reads linear or quadratic tetrahedra from Gmsh .msh (2.2, 4.1), TetGen .node/.ele, legacy .vtk or Medit
- * .mesh, chosen by the file's ending. The mesh belongs to the caller; bodies keep what they need of
- * it. */
+/** Reads linear or quadratic tetrahedra from Gmsh .msh (2.2, 4.1), TetGen .node/.ele, legacy .vtk
+ * or Medit .mesh, chosen by the file's ending. The mesh belongs to the caller; bodies keep what
+ * they need of it. */
 DSOFT_API dSoftMeshID dSoftMeshLoad(const char* path);
 
 /** Mesh from arrays. @param nodes xyz packed [m]. @param tets four node indices each, from 0. */
