@@ -185,6 +185,10 @@ std::string content_hash(const TetMesh& mesh, std::span<const Solid> solids,
     h.number(std::uint64_t{options.clamp});
     h.number(std::uint64_t{options.estimate});
     h.number(std::uint64_t{options.rebuilt_curves});
+    h.number(std::uint64_t{options.facets.size()});
+    for (const Vec3& x : options.facets)
+        for (int axis = 0; axis < 3; ++axis)
+            h.number(x[axis]);
     h.number(std::uint64_t{options.verify});
     return h.text();
 }
