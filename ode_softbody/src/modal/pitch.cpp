@@ -1,5 +1,6 @@
 #include "modal/pitch.h"
 
+#include "base/error.h"
 #include "modal/cubic.h"
 #include "modal/two_level.h"
 
@@ -161,6 +162,9 @@ std::size_t set_bands(ModalModel& model, const OrderPair& pair, bool coarse_answ
 
 ModalModel solve_with_band(const TetMesh& mesh, std::span<const Solid> solids,
                            const ModalOptions& options) {
+    if (options.order > 3) // below, ModalProblem would take it for the cubic order
+        throw InputError(
+            format("element order %d is not available: take 1, 2 or 3", options.order));
     const bool coarse_answer = options.order < 3;
     ModalOptions low = options, high = options;
     low.order = coarse_answer ? options.order : 2;
