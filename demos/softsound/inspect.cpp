@@ -44,6 +44,10 @@ std::vector<std::string> warnings(const dSoftMeshQuality& q, double longest) {
         out.push_back("the mesh falls into " + std::to_string(q.parts) +
                       " parts that share no node: one body each would be cheaper, and merging "
                       "duplicate nodes may be what is wanted");
+    if (q.doubtful_edges > 0)
+        out.push_back(std::to_string(q.doubtful_edges) +
+                      " surface edges of 35 to 80 degrees could be a coarse round or a corner: "
+                      "mesh rounds with at least ten facets, or pitches will be off");
     return out;
 }
 
@@ -90,6 +94,7 @@ int run(const Options& o, const Common& common) {
                         {"max_edge", q.max_edge},
                         {"min_quality", q.min_quality},
                         {"worst_element", q.worst},
+                        {"doubtful_edges", q.doubtful_edges},
                         {"warnings", said}});
     return 0;
 }

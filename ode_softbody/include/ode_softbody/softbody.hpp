@@ -31,6 +31,7 @@ public:
 
 using WorldHandle = Handle<dSoftWorldID, dSoftWorldDestroy>;
 using MeshHandle = Handle<dSoftMeshID, dSoftMeshDestroy>;
+using ModesHandle = Handle<dSoftModesID, dSoftModesDestroy>;
 using BodyHandle = Handle<dSoftBodyID, dSoftBodyDestroy>;
 
 } // namespace ode::soft

@@ -1,10 +1,14 @@
 #include "api/boundary.h"
 #include "api/handles.h"
 #include "api/versioned.h"
+#include "mesh/curve.h"
 #include "mesh/generate.h"
+#include "mesh/promote.h"
 #include "mesh/quality.h"
 #include "mesh/read.h"
 #include "mesh/surface.h"
+
+#include <cmath>
 
 using namespace ode::soft;
 
@@ -13,6 +17,13 @@ namespace {
 template <class Make>
 dSoftMeshID make_mesh(const char* function, Make&& make) noexcept {
     return guarded(function, dSoftMeshID{}, [&] { return new dxSoftMesh{make()}; });
+}
+
+int doubtful_edges(const TetMesh& mesh) {
+    if (mesh.order != 1)
+        return 0;
+    TetMesh curved = promote_to_quadratic(mesh);
+    return static_cast<int>(curve_surface(curved).doubtful);
 }
 
 } // namespace
@@ -89,6 +100,51 @@ int dSoftMeshGetQuality(dSoftMeshID id, dSoftMeshQuality* out) {
             all.bounds[2 * axis] = q.low[axis];
             all.bounds[2 * axis + 1] = q.high[axis];
         }
+        all.doubtful_edges = doubtful_edges(id->mesh);
         return copy_out("dSoftMeshGetQuality", all, out);
     });
+}
+
+int dSoftMeshScale(dSoftMeshID id, dReal factor) {
+    require_id(id, __func__);
+    return guarded(__func__, 0, [&] {
+        if (!(factor > 0) || !std::isfinite(factor))
+            throw InputError(format("the factor is %g: it must be finite and positive", factor));
+        for (Vec3& x : id->mesh.node)
+            x *= factor;
+        return 1;
+    });
+}
+
+int dSoftMeshGetOrder(dSoftMeshID id) {
+    require_id(id, __func__);
+    return id->mesh.order;
+}
+
+int dSoftMeshGetNodes(dSoftMeshID id, const dReal** first) {
+    require_id(id, __func__);
+    static_assert(sizeof(Vec3) == 3 * sizeof(dReal));
+    if (first)
+        *first = id->mesh.node.empty() ? nullptr : id->mesh.node.front().data();
+    return static_cast<int>(id->mesh.node.size());
+}
+
+int dSoftMeshGetElements(dSoftMeshID id, const int** first) {
+    require_id(id, __func__);
+    if (first)
+        *first = id->mesh.element.data();
+    return static_cast<int>(id->mesh.element_count());
+}
+
+int dSoftMeshGetGroupCount(dSoftMeshID id) {
+    require_id(id, __func__);
+    return static_cast<int>(id->mesh.group_name.size());
+}
+
+const char* dSoftMeshGetGroupName(dSoftMeshID id, int i) {
+    require_id(id, __func__);
+    const auto& names = id->mesh.group_name;
+    return i >= 0 && static_cast<std::size_t>(i) < names.size()
+               ? names[static_cast<std::size_t>(i)].c_str()
+               : nullptr;
 }

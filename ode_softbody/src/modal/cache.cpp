@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raise when the numbers that solve_modes() gives, or the file's layout, change.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr char kMagic[8] = {'O', 'S', 'B', 'm', 'o', 'd', 'e', '\n'};
 
 /// Two FNV-1a hashes of 64 bits with different offsets, each stirred at the end (SplitMix64).
@@ -185,6 +185,10 @@ std::string content_hash(const TetMesh& mesh, std::span<const Solid> solids,
     h.number(std::uint64_t{options.clamp});
     h.number(std::uint64_t{options.estimate});
     h.number(std::uint64_t{options.rebuilt_curves});
+    h.number(std::uint64_t{options.facets.size()});
+    for (const Vec3& x : options.facets)
+        for (int axis = 0; axis < 3; ++axis)
+            h.number(x[axis]);
     h.number(std::uint64_t{options.verify});
     return h.text();
 }

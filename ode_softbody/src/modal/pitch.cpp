@@ -1,5 +1,6 @@
 #include "modal/pitch.h"
 
+#include "base/error.h"
 #include "modal/cubic.h"
 #include "modal/two_level.h"
 
@@ -74,21 +75,28 @@ Partner partner(const VectorXd& overlaps, const VectorXd& lambda) {
     return {frequency_of(mean), 600 / std::log(2.0) * std::sqrt(variance) / mean};
 }
 
-/// What straight edges would change, in cents a mode: Rayleigh quotients of the same nodal
-/// displacements on straight geometry, right to the second order in the change of shape.
+/// The body of the facets that the curves were guessed from: the same elements.
+TetMesh faceted(const TetMesh& mesh, const std::vector<Vec3>& facets) {
+    TetMesh flat = mesh;
+    if (!facets.empty()) {
+        flat.node = facets;
+        return flat;
+    }
+    const auto at = [&](int node) -> Vec3& { return flat.node[static_cast<std::size_t>(node)]; };
+    for (std::size_t e = 0; e < mesh.element_count() && mesh.order > 1; ++e) {
+        const auto n = mesh.nodes_of(e);
+        for (std::size_t k = 0; k < 6; ++k)
+            at(n[4 + k]) = 0.5 * (at(n[static_cast<std::size_t>(kTetEdge[k][0])]) +
+                                  at(n[static_cast<std::size_t>(kTetEdge[k][1])]));
+    }
+    return flat;
+}
+
+/// What the facets would change, in cents a mode: Rayleigh quotients of the same nodal
+/// displacements on their geometry, right to the second order in the change of shape.
 VectorXd facet_change(const ModalProblem& problem, const EigenPairs& pairs,
                       const ModalOptions& options) {
-    TetMesh straight = problem.mesh();
-    for (std::size_t e = 0; e < straight.element_count() && straight.order > 1; ++e) {
-        const auto n = problem.mesh().nodes_of(e);
-        for (std::size_t k = 0; k < 6; ++k)
-            straight.node[static_cast<std::size_t>(n[4 + k])] =
-                0.5 *
-                (straight
-                     .node[static_cast<std::size_t>(n[static_cast<std::size_t>(kTetEdge[k][0])])] +
-                 straight
-                     .node[static_cast<std::size_t>(n[static_cast<std::size_t>(kTetEdge[k][1])])]);
-    }
+    const TetMesh straight = faceted(problem.mesh(), options.facets);
     ModalOptions quiet = options;
     quiet.progress = {};
     quiet.order = problem.map().order;
@@ -154,6 +162,9 @@ std::size_t set_bands(ModalModel& model, const OrderPair& pair, bool coarse_answ
 
 ModalModel solve_with_band(const TetMesh& mesh, std::span<const Solid> solids,
                            const ModalOptions& options) {
+    if (options.order > 3) // below, ModalProblem would take it for the cubic order
+        throw InputError(
+            format("element order %d is not available: take 1, 2 or 3", options.order));
     const bool coarse_answer = options.order < 3;
     ModalOptions low = options, high = options;
     low.order = coarse_answer ? options.order : 2;

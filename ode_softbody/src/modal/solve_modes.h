@@ -17,13 +17,16 @@ struct ModalProgress {
 struct ModalOptions {
     int order = 3; ///< of the displacement: 1, 2 or 3, whatever the mesh
     MassKind mass = MassKind::kConsistent;
-    double max_frequency = 22000;              ///< [Hz] all modes up to here
-    std::size_t max_modes = 0;                 ///< lowest ones only; 0: no limit
-    std::vector<int> clamped;                  ///< mesh nodes held still (see clamped_nodes)
-    std::array<std::vector<int>, 3> rollers;   ///< mesh nodes held along x, y, z only
-    bool clamp = false;                        ///< a clamp is meant: an empty `clamped` is an error
-    bool estimate = true;                      ///< give ModalModel::error_cents
-    bool rebuilt_curves = false;               ///< the mesh's curved edges were guessed from facets
+    double max_frequency = 22000;            ///< [Hz] all modes up to here
+    std::size_t max_modes = 0;               ///< lowest ones only; 0: no limit
+    std::vector<int> clamped;                ///< mesh nodes held still (see clamped_nodes)
+    std::array<std::vector<int>, 3> rollers; ///< mesh nodes held along x, y, z only
+    bool clamp = false;                      ///< a clamp is meant: an empty `clamped` is an error
+    bool estimate = true;                    ///< give ModalModel::error_cents
+    bool rebuilt_curves = false;             ///< the mesh's curved edges were guessed from facets
+    /// With rebuilt_curves: where the mesh's nodes lie on the facets. Empty: mid-edge nodes
+    /// halfway.
+    std::vector<Vec3> facets;
     bool verify = true;                        ///< count the modes by Sylvester's law of inertia
     std::size_t memory = std::size_t{4} << 30; ///< refuse what would need more [bytes]
     std::function<bool(const ModalProgress&)> progress; ///< false cancels

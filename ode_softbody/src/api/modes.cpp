@@ -1,0 +1,171 @@
+#include "api/boundary.h"
+#include "api/handles.h"
+#include "api/solid.h"
+#include "api/versioned.h"
+#include "modal/block_lanczos.h"
+#include "modal/cache.h"
+#include "modal/to_tolerance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+struct dxSoftModes {
+    ode::soft::TolerantModes result;
+    int nodes = 0, elements = 0; ///< of the mesh as given
+};
+
+namespace ode::soft {
+namespace {
+
+std::size_t positive(int value, const char* name) {
+    if (value < 0)
+        throw InputError(format("%s is %d: it can't be negative", name, value));
+    return static_cast<std::size_t>(value);
+}
+
+ModalOptions modal_options(const dSoftModesOptions& c) {
+    ModalOptions o;
+    o.order = c.order;
+    o.mass = c.lumped ? MassKind::kLumped : MassKind::kConsistent;
+    o.max_modes = positive(c.count, "count");
+    o.max_frequency = c.max_frequency;
+    if (o.max_modes > 0 && c.max_frequency > 0 && std::isinf(c.max_frequency))
+        o.max_frequency = 1e9; // finite, and above the modes of anything with atoms
+    if (c.progress)
+        o.progress = [progress = c.progress, data = c.progress_data](const ModalProgress& p) {
+            return progress(data, p.stage, p.share, static_cast<int>(p.modes)) != 0;
+        };
+    return o;
+}
+
+ToleranceOptions tolerance_options(const dSoftModesOptions& c) {
+    ToleranceOptions t;
+    if (!(c.tolerance >= 0) || !std::isfinite(c.tolerance))
+        throw InputError(
+            format("the tolerance is %g cents: it must be finite and not negative", c.tolerance));
+    t.cents = c.tolerance;
+    t.partials = positive(c.tolerance_count, "tolerance_count");
+    t.max_nodes = positive(c.max_nodes, "max_nodes");
+    t.rebuild_curves = c.rebuilt_curves != 0;
+    if (c.use_cache)
+        t.cache = cache_directory();
+    return t;
+}
+
+/// One for each group.
+std::vector<Solid> solids_of(const TetMesh& mesh, const dSoftSolid* given, int count) {
+    const std::size_t groups = std::max<std::size_t>(1, mesh.group_name.size());
+    if (count != 1 && static_cast<std::size_t>(std::max(count, 0)) != groups)
+        throw InputError(format("%d materials for the %zu groups of the mesh: give one for each, "
+                                "or one for all",
+                                count, groups));
+    std::vector<Solid> solids;
+    for (std::size_t i = 0; i < groups; ++i)
+        solids.push_back(from_c(given[count == 1 ? 0 : i]));
+    return solids;
+}
+
+int give(const std::vector<double>& values, const dReal** first) noexcept {
+    if (first)
+        *first = values.data();
+    return static_cast<int>(values.size());
+}
+
+} // namespace
+} // namespace ode::soft
+
+using namespace ode::soft;
+
+static_assert(sizeof(dReal) == sizeof(double), "modes are handed out without a copy");
+
+dSoftModesOptions dSoftModesOptionsDefault(void) {
+    dSoftModesOptions c{};
+    c.struct_size = sizeof c;
+    c.order = 3;
+    c.max_frequency = 22000;
+    c.rebuilt_curves = 1;
+    c.use_cache = 1;
+    c.tolerance_count = 8;
+    c.max_nodes = 200000;
+    return c;
+}
+
+dSoftModesID dSoftModesCompute(dSoftMeshID id, const dSoftSolid* solids, int solid_count,
+                               const int* clamped, int clamped_count,
+                               const dSoftModesOptions* options) {
+    require_id(id, __func__);
+    require_id(solids, __func__);
+    return guarded(__func__, dSoftModesID{}, [&]() -> dSoftModesID {
+        dSoftModesOptions c = dSoftModesOptionsDefault();
+        if (options)
+            copy_in(*options, "dSoftModesOptionsDefault", &c);
+        ModalOptions modal = modal_options(c);
+        if (clamped)
+            modal.clamped.assign(clamped, clamped + positive(clamped_count, "clamped_count"));
+        modal.clamp = clamped != nullptr;
+        const ToleranceOptions tolerance = tolerance_options(c);
+        const std::vector<Solid> all = solids_of(id->mesh, solids, solid_count);
+        try {
+            auto modes = std::make_unique<dxSoftModes>();
+            modes->result = modes_to_tolerance(id->mesh, all, modal, tolerance);
+            modes->nodes = static_cast<int>(id->mesh.node.size());
+            modes->elements = static_cast<int>(id->mesh.element_count());
+            return modes.release();
+        } catch (const Cancelled&) {
+            throw InputError("cancelled by the progress callback");
+        }
+    });
+}
+
+void dSoftModesDestroy(dSoftModesID modes) { delete modes; }
+
+int dSoftModesGetCount(dSoftModesID modes) {
+    require_id(modes, __func__);
+    return static_cast<int>(modes->result.model.mode_count());
+}
+
+int dSoftModesGetFrequencies(dSoftModesID modes, const dReal** first) {
+    require_id(modes, __func__);
+    return give(modes->result.model.frequency, first);
+}
+
+int dSoftModesGetErrorCents(dSoftModesID modes, const dReal** first) {
+    require_id(modes, __func__);
+    return give(modes->result.model.error_cents, first);
+}
+
+int dSoftModesGetShape(dSoftModesID modes, int mode, const dReal** first, int* stride) {
+    require_id(modes, __func__);
+    if (mode < 0 || mode >= dSoftModesGetCount(modes)) {
+        report(format("%s: there is no mode %d of %d", __func__, mode, dSoftModesGetCount(modes)));
+        return 0;
+    }
+    *first = modes->result.model.shape_of(static_cast<std::size_t>(mode)).data();
+    *stride = 3;
+    return modes->nodes;
+}
+
+int dSoftModesGetInfo(dSoftModesID modes, dSoftModesInfo* out) {
+    require_id(modes, __func__);
+    require_id(out, __func__);
+    const TolerantModes& r = modes->result;
+    dSoftModesInfo all{};
+    all.nodes = modes->nodes;
+    all.elements = modes->elements;
+    all.solved_nodes = static_cast<int>(r.nodes);
+    all.refinements = r.refinements;
+    all.rigid_modes = r.model.rigid_modes;
+    all.complete = r.model.complete;
+    all.mass = r.model.body.mass;
+    all.volume = r.model.body.volume;
+    for (int i = 0; i < 3; ++i) {
+        all.center[i] = r.model.body.centre[i];
+        for (int j = 0; j < 3; ++j)
+            all.inertia[i][j] = r.model.body.inertia(i, j);
+    }
+    all.curved_edges = static_cast<int>(r.curve.moved);
+    all.limited_edges = static_cast<int>(r.curve.limited);
+    all.doubtful_edges = static_cast<int>(r.curve.doubtful);
+    return copy_out("dSoftModesGetInfo", all, out);
+}
