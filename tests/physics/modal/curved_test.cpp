@@ -24,29 +24,21 @@ ModalModel modes(const TetMesh& mesh, bool curved) {
     return modes_to_tolerance(mesh, std::span(&kAluminium, 1), options, tolerance).model;
 }
 
-double median_error(const ModalModel& model, const ModalModel& reference) {
-    std::vector<double> errors;
-    for (std::size_t k = 0; k < kPartials; ++k)
-        errors.push_back(std::abs(cents(model.frequency[k], reference.frequency[k])));
-    std::sort(errors.begin(), errors.end());
-    return 0.5 * (errors[kPartials / 2 - 1] + errors[kPartials / 2]);
-}
-
-// The trial's bowl (research: 0.52 % straight, 0.14 % rebuilt) gained a factor of four.
-TEST(Curved, RebuiltBowlErrsLessAndItsBandHolds) {
-    const TetMesh coarse = make_bowl(0.1, 0.005, 1.5708, 6, 20, 1);
-    const ModalModel reference = modes(make_bowl(0.1, 0.005, 1.5708, 12, 40, 1), true);
+// On this thin bowl straight and rebuilt err alike on one mesh, from opposite sides; what must hold
+// is the band. (On the sphere rebuilding wins a hundredfold: app/modes_test.cpp.)
+TEST(Curved, BandOfARebuiltBowlHolds) {
+    const TetMesh coarse = make_bowl(0.1, 0.005, 1.5708, 12, 40, 1);
+    const ModalModel reference = modes(make_bowl(0.1, 0.005, 1.5708, 16, 56, 1), true);
     const ModalModel straight = modes(coarse, false), curved = modes(coarse, true);
     ASSERT_EQ(curved.mode_count(), kPartials);
     EXPECT_EQ(curved.node_count, coarse.node.size());
     for (std::size_t k = 0; k < kPartials; ++k) {
         const double error = std::abs(cents(curved.frequency[k], reference.frequency[k]));
-        EXPECT_LE(error, curved.error_cents[k] + reference.error_cents[k]);
+        EXPECT_LE(error, curved.error_cents[k]);
         std::printf("bowl %zu: straight %+.2f, rebuilt %+.2f +- %.2f cents\n", k + 1,
                     cents(straight.frequency[k], reference.frequency[k]),
                     cents(curved.frequency[k], reference.frequency[k]), curved.error_cents[k]);
     }
-    EXPECT_LT(median_error(curved, reference), 0.5 * median_error(straight, reference));
 }
 
 // On a refined mesh the doubt about the surface stays what it was on the given one.
