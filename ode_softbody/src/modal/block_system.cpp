@@ -1,22 +1,13 @@
 #include "modal/block_system.h"
 
+#include "modal/avx2.h"
+
 #include <cassert>
 
 namespace ode::soft {
 namespace {
 
 constexpr int kLanes = 8; ///< vectors handled at once: 3 x 8 sums stay in registers
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#define ODE_SOFTBODY_AVX2 __attribute__((target("avx2")))
-bool has_avx2() {
-    static const bool yes = __builtin_cpu_supports("avx2");
-    return yes;
-}
-#else
-#define ODE_SOFTBODY_AVX2
-bool has_avx2() { return false; }
-#endif
 
 template <int lanes>
 [[gnu::always_inline]] inline void stiffness_body(const BlockSystem& s, const double* x, double* y,

@@ -1,5 +1,7 @@
 #include "modal/tall_product.h"
 
+#include "modal/avx2.h"
+
 #include <cassert>
 
 namespace ode::soft {
@@ -10,17 +12,6 @@ using Eigen::Index;
 constexpr Index kWidth = 8;   ///< vectors in a block
 constexpr Index kTile = 4;    ///< columns or rows of the basis held against it
 constexpr Index kChunk = 256; ///< rows: 16 KB of the block stay in the first cache
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#define ODE_SOFTBODY_AVX2 __attribute__((target("avx2")))
-bool has_avx2() {
-    static const bool yes = __builtin_cpu_supports("avx2");
-    return yes;
-}
-#else
-#define ODE_SOFTBODY_AVX2
-bool has_avx2() { return false; }
-#endif
 
 /// sum[t][l] += v_t[i] y[i][l] over `rows` rows.
 [[gnu::always_inline]] inline void dot_body(const double* v, Index stride, const double* y,
