@@ -29,6 +29,7 @@ void write_json(const Common& common, const nlohmann::ordered_json& results);
 // One function a subcommand, in the file of its name.
 void add_demo(CLI::App& app, Common& common);
 void add_inspect(CLI::App& app, Common& common);
+void add_integrators(CLI::App& app, Common& common);
 void add_modes(CLI::App& app, Common& common);
 void add_bench(CLI::App& app, Common& common);
 

@@ -36,6 +36,7 @@ int main(int argc, char** argv) {
     softsound::Common common;
     softsound::add_demo(app, common);
     softsound::add_inspect(app, common);
+    softsound::add_integrators(app, common);
     softsound::add_modes(app, common);
     softsound::add_bench(app, common);
     CLI11_PARSE(app, argc, argv);

@@ -220,6 +220,33 @@ typedef struct dSoftModesInfo {
 } dSoftModesInfo;
 DSOFT_API int dSoftModesGetInfo(dSoftModesID modes, dSoftModesInfo* info);
 
+/* ---- Integrators ------------------------------------------------------------------------- */
+
+/** What is known of an integrator. Start with struct_size = sizeof(dSoftIntegratorInfo). */
+typedef struct dSoftIntegratorInfo {
+    unsigned struct_size;
+    int order;    /**< of convergence; damping by viscosity lowers central difference's to 1 */
+    int implicit; /**< 1: solves for the new state */
+    int forces;   /**< evaluations of the material a substep; of an implicit one, an iteration */
+} dSoftIntegratorInfo;
+
+/** What an integrator makes of a vibration of angular frequency w and damping ratio zeta in a
+ * substep h, read off its own code. */
+typedef struct dSoftIntegratorResponse {
+    unsigned struct_size;
+    dReal amplification;      /**< factor on the amplitude a substep; above 1 it is unstable */
+    dReal artificial_damping; /**< damping ratio that the integrator adds */
+    dReal period_error;       /**< relative, T/T0 - 1; NaN where nothing swings */
+} dSoftIntegratorResponse;
+
+/** Name of the i-th integrator, NULL past the last; the first is the default. */
+DSOFT_API const char* dSoftIntegratorName(int i);
+DSOFT_API int dSoftIntegratorGetInfo(const char* name, dSoftIntegratorInfo* info);
+/** @param omega_h       w h [rad], > 0.
+ *  @param damping_ratio zeta, >= 0 and finite. */
+DSOFT_API int dSoftIntegratorGetResponse(const char* name, dReal omega_h, dReal damping_ratio,
+                                         dSoftIntegratorResponse* response);
+
 /* ---- Body -------------------------------------------------------------------------------- */
 
 /** A body at rest in the mesh's own coordinates. Place it before the first step. */
@@ -255,10 +282,20 @@ DSOFT_API const char* dSoftBodyGetMaterialModel(dSoftBodyID body); /**< borrowed
  * @param moved  out, or NULL: surface edges that are curved now. */
 DSOFT_API int dSoftBodySetCurved(dSoftBodyID body, int curved, int* moved);
 
-/** Substep [s]: 0 lets the library choose 0.9 of the critical step. Refused above the critical. */
+/** How the body is stepped, by name: "central-difference" (the default; "verlet" is the same),
+ * "explicit-euler", "symplectic-euler", "modified-euler", "midpoint", "runge-kutta-4",
+ * "backward-euler", "linearised-backward-euler", "trapezoidal", "tr-bdf2". The implicit ones, from
+ * backward Euler on, take any substep, lose high frequencies or detune them by it, and allocate
+ * memory in a step. */
+DSOFT_API int dSoftBodySetIntegrator(dSoftBodyID body, const char* name);
+DSOFT_API const char* dSoftBodyGetIntegrator(dSoftBodyID body); /**< borrowed until it is set */
+
+/** Substep [s]: 0 lets the library choose 0.9 of the critical step (implicit integrators: 5.2 us).
+ * Refused above the critical. */
 DSOFT_API int dSoftBodySetSubstep(dSoftBodyID body, dReal dt);
 DSOFT_API dReal dSoftBodyGetSubstep(dSoftBodyID body);
-/** Largest stable substep of the explicit step at rest [s]: a lower bound of it. */
+/** Largest stable substep of the body's integrator at rest [s]: a lower bound of it. Infinite for
+ * the implicit ones; 0 for those that let undamped vibrations grow at any step. */
 DSOFT_API dReal dSoftBodyGetCriticalStep(dSoftBodyID body);
 
 /** Moves the body as a rigid whole so that its centre of mass is here [m]. */

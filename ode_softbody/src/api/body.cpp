@@ -64,11 +64,11 @@ int dSoftBodySetSubstep(dSoftBodyID id, dReal dt) {
         body.use_default_substep();
         return 1;
     }
-    if (!(dt > 0 && dt <= body.critical_step())) {
+    if (!(dt > 0 && std::isfinite(dt) && dt <= body.longest_substep())) {
         report(
             format("dSoftBodySetSubstep: %g s is outside (0, %g s], the stable range of this body; "
                    "give 0 to let the library choose",
-                   dt, body.critical_step()));
+                   dt, body.longest_substep()));
         return 0;
     }
     body.set_substep(dt);

@@ -63,6 +63,26 @@ const char* dSoftBodyGetMaterialModel(dSoftBodyID id) {
     return from_id(id).form().model.c_str();
 }
 
+int dSoftBodySetIntegrator(dSoftBodyID id, const char* name) {
+    require_id(id, __func__);
+    require_id(name, __func__);
+    BodyForm form = from_id(id).form();
+    form.integrator = name;
+    if (!set_form(id, __func__, std::move(form)))
+        return 0;
+    if (from_id(id).critical_step() == 0)
+        report(format("dSoftBodySetIntegrator: %s lets undamped vibrations grow at any substep; it "
+                      "is here to be compared with, and the body will be stopped when it has "
+                      "blown up",
+                      dSoftBodyGetIntegrator(id)));
+    return 1;
+}
+
+const char* dSoftBodyGetIntegrator(dSoftBodyID id) {
+    require_id(id, __func__);
+    return from_id(id).form().integrator.c_str();
+}
+
 int dSoftBodySetCurved(dSoftBodyID id, int curved, int* moved) {
     require_id(id, __func__);
     return guarded(__func__, 0, [&] {

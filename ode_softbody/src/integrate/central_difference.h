@@ -19,7 +19,6 @@ void kick_drift(const NodeInertia& inertia, double h, const NodeArray& force,
 /// Viscosity sees this lagged velocity, which costs stability but no extra solve: critical_step().
 class CentralDifference final : public Integrator {
 public:
-    const char* name() const noexcept override { return "central_difference"; }
     StrainExtremes evaluate(const ElasticModel& model, const NodeState& state,
                             NodeArray& force) noexcept override;
     StrainExtremes step(const ElasticModel& model, const NodeInertia& inertia, double h,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "integrate/integrator.h"
 #include "model/elastic_model.h"
 #include "model/solid.h"
 
@@ -23,6 +24,15 @@ double critical_step(double frequency, double beta) noexcept;
 /// over stiffness, in pure volume change or in pure shear, whichever is larger [s]. Not
 /// max(phi/lambda, psi/mu), which is infinite for nu = 0.
 double viscous_time(const Solid& solid) noexcept;
+
+/// The same from below: the largest beta for which beta K <= C.
+double least_viscous_time(const Solid& solid) noexcept;
+
+/// Of a named method: closed form where there is one, else found from the method's code
+/// (ModalAnalysis). 0: undamped modes grow at any step; infinite: at none. Some methods owe their
+/// stability to damping and others suffer from it, so that it is bounded from both sides.
+/// @param least, most  beta, with least K <= C <= most K.
+double critical_step(const IntegratorKind& method, double frequency, double least, double most);
 
 /// critical_step() of a body as it stands, from the upper end of largest_frequency(). Never above
 /// the exact value but for the bracket's probability of 1e-12, and never below 0.95 of it when

@@ -3,6 +3,7 @@
 #include "integrate/node_state.h"
 #include "model/elastic_model.h"
 
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -10,7 +11,7 @@
 namespace ode::soft {
 
 /// One way to step the nodes of a body. One object serves one body: scratch is made once, so that a
-/// step allocates nothing.
+/// step of an explicit method allocates nothing.
 ///
 /// A substep has two halves. The world puts gravity and the application's forces into each body's
 /// force array and calls evaluate(), which adds the material's; then contacts between all bodies,
@@ -22,8 +23,6 @@ class Integrator {
 public:
     virtual ~Integrator() = default;
 
-    virtual const char* name() const noexcept = 0;
-
     /// Adds the material's force [N] at the state as it stands.
     /// @return the worst strain there.
     virtual StrainExtremes evaluate(const ElasticModel& model, const NodeState& state,
@@ -32,7 +31,8 @@ public:
     /// Advances by h [s].
     /// @param force  in: all force at the state as it stands [N]; out: spent, its content is the
     ///               method's affair.
-    /// @return the worst strain that was met on the way, besides that of evaluate().
+    /// @return the worst strain that was met on the way, besides that of evaluate(). A step that
+    /// failed (a non-linear solution that wasn't found) is told by kFailedStep.
     virtual StrainExtremes step(const ElasticModel& model, const NodeInertia& inertia, double h,
                                 NodeState& state, NodeArray& force) noexcept = 0;
 
@@ -45,10 +45,24 @@ public:
                      NodeArray& /*force*/) noexcept {}
 };
 
-/// All names that make_integrator() knows.
-std::span<const std::string_view> integrator_names() noexcept;
+/// No strain is this bad: the watch over stability takes the body back.
+inline constexpr StrainExtremes kFailedStep{-std::numeric_limits<double>::infinity(),
+                                            std::numeric_limits<double>::infinity()};
 
+/// What is known of a method by its name.
+struct IntegratorKind {
+    std::string_view name;
+    int order;     ///< of convergence
+    bool implicit; ///< solves for the new state: no step is too long for a linear body
+    int forces;    ///< evaluations of the material a step; of an implicit method an iteration
+    std::unique_ptr<Integrator> (*make)(std::size_t nodes);
+};
+
+/// All methods, the default first.
+std::span<const IntegratorKind> integrator_kinds() noexcept;
+
+/// "verlet" is understood as "central-difference".
 /// @throws InputError for an unknown name, listing the known ones.
-std::unique_ptr<Integrator> make_integrator(std::string_view name, std::size_t nodes);
+const IntegratorKind& integrator_kind(std::string_view name);
 
 } // namespace ode::soft

@@ -42,7 +42,11 @@ BlockMatrix::BlockMatrix(std::span<const int> element, int corners, std::size_t 
                     inner[at++] = 3 * neighbour_[static_cast<std::size_t>(k)] + r;
         }
     *outer = at;
-    std::fill(matrix_.valuePtr(), matrix_.valuePtr() + at, 0.0);
+    set_zero();
+}
+
+void BlockMatrix::set_zero() noexcept {
+    std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
 }
 
 void BlockMatrix::add(int row, int column, const Mat3& block) noexcept {

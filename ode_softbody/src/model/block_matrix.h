@@ -19,7 +19,12 @@ public:
     /// Adds to block (row, column); both nodes must share an element.
     void add(int row, int column, const Mat3& block) noexcept;
 
-    /// 3n x 3n: xyz of node 0, node 1, ... Leaves this empty.
+    void set_zero() noexcept;
+
+    /// 3n x 3n: xyz of node 0, node 1, ...
+    const Eigen::SparseMatrix<double>& matrix() const noexcept { return matrix_; }
+    Eigen::SparseMatrix<double>& matrix() noexcept { return matrix_; }
+    /// Leaves this empty.
     Eigen::SparseMatrix<double> take() { return std::move(matrix_); }
 
 private:

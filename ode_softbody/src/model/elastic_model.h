@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/types.h"
+#include "model/block_matrix.h"
 
 #include <Eigen/SparseCore>
 
@@ -32,8 +33,20 @@ public:
     /// Elastic energy [J].
     virtual double energy(const NodeArray& position) const noexcept = 0;
 
-    /// Derivative of minus the elastic force: symmetric, 3n x 3n, xyz of node 0, node 1, ... [N/m].
-    virtual Eigen::SparseMatrix<double> stiffness(const NodeArray& position) const = 0;
+    /// A matrix of zeros with room for add_tangent().
+    virtual BlockMatrix tangent_pattern() const = 0;
+
+    /// Adds `elastic` K + `viscous` C: minus the derivatives of the elastic force by position and
+    /// of the viscous force by velocity. Both symmetric; C is positive semidefinite.
+    virtual void add_tangent(const NodeArray& position, double elastic, double viscous,
+                             BlockMatrix& out) const noexcept = 0;
+
+    /// K alone: symmetric, 3n x 3n, xyz of node 0, node 1, ... [N/m].
+    Eigen::SparseMatrix<double> stiffness(const NodeArray& position) const {
+        BlockMatrix k = tangent_pattern();
+        add_tangent(position, 1, 0, k);
+        return k.take();
+    }
 
     /// Consistent mass, 3n x 3n [kg].
     virtual Eigen::SparseMatrix<double> consistent_mass() const = 0;

@@ -27,7 +27,9 @@ public:
     StrainExtremes add_force(const NodeArray& position, const NodeArray& velocity,
                              NodeArray& force) const noexcept override;
     double energy(const NodeArray& position) const noexcept override;
-    Eigen::SparseMatrix<double> stiffness(const NodeArray& position) const override;
+    BlockMatrix tangent_pattern() const override;
+    void add_tangent(const NodeArray& position, double elastic, double viscous,
+                     BlockMatrix& out) const noexcept override;
     Eigen::SparseMatrix<double> consistent_mass() const override;
     double max_frequency_bound() const override;
 

@@ -4,6 +4,7 @@
 #include "model/element_frequency.h"
 #include "model/strain_extremes.h"
 #include "model/tet_model.h"
+#include "model/viscous_tangent.h"
 
 namespace ode::soft {
 
@@ -52,27 +53,37 @@ std::vector<int> TetModel<Law, Packs>::connectivity() const {
 }
 
 template <class Law, class Packs>
-Eigen::SparseMatrix<double> TetModel<Law, Packs>::stiffness(const NodeArray& position) const {
-    BlockMatrix k(connectivity(), Packs::Element::kNodes, node_count());
-    for (const TetBlock& block : packs_.blocks())
+BlockMatrix TetModel<Law, Packs>::tangent_pattern() const {
+    return BlockMatrix(connectivity(), Packs::Element::kNodes, node_count());
+}
+
+template <class Law, class Packs>
+void TetModel<Law, Packs>::add_tangent(const NodeArray& position, double elastic, double viscous,
+                                       BlockMatrix& out) const noexcept {
+    for (const TetBlock& block : packs_.blocks()) {
+        const bool has_viscous = viscous != 0 && block.solid.is_viscous();
         for (std::size_t e = 0; e < block.elements; ++e) {
             const auto element = packs_.element(block, e);
             for (int q = 0; q < element.kPoints; ++q) {
-                const typename Law::Tangent tangent(block.solid,
-                                                    deformation_gradient(element, q, position));
+                const Mat3 f = deformation_gradient(element, q, position);
+                const typename Law::Tangent tangent(block.solid, f);
+                const ViscousTangent damping(block.solid, f);
                 const auto& g = element.gradient[q];
                 for (int a = 0; a < element.kNodes; ++a)
-                    for (int b = 0; b < element.kNodes; ++b)
-                        k.add(element.node[a], element.node[b],
-                              element.weight[q] * tangent.block(g.row(a), g.row(b)));
+                    for (int b = 0; b < element.kNodes; ++b) {
+                        Mat3 sum = elastic * tangent.block(g.row(a), g.row(b));
+                        if (has_viscous)
+                            sum += viscous * damping.block(g.row(a), g.row(b));
+                        out.add(element.node[a], element.node[b], element.weight[q] * sum);
+                    }
             }
         }
-    return k.take();
+    }
 }
 
 template <class Law, class Packs>
 Eigen::SparseMatrix<double> TetModel<Law, Packs>::consistent_mass() const {
-    BlockMatrix m(connectivity(), Packs::Element::kNodes, node_count());
+    BlockMatrix m = tangent_pattern();
     for (const TetBlock& block : packs_.blocks())
         for (std::size_t e = 0; e < block.elements; ++e) {
             const auto element = packs_.element(block, e);

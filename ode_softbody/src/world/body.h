@@ -20,9 +20,10 @@ class SoftWorld;
 
 /// What a body is solved as.
 struct BodyForm {
-    int order = 1;              ///< of its elements
-    std::string model = "stvk"; ///< one of model_names()
-    bool curved = false;        ///< curve_surface() on the promoted mesh
+    int order = 1;                                 ///< of its elements
+    std::string model = "stvk";                    ///< one of model_names()
+    bool curved = false;                           ///< curve_surface() on the promoted mesh
+    std::string integrator = "central-difference"; ///< one of integrator_kinds()
 };
 
 /// A soft body: a meshed solid, its motion, its surface and its geom in ODE's space.
@@ -84,9 +85,12 @@ public:
     /// Adds to the forces of the next step [N].
     void add_force(int node, const Vec3& force) noexcept;
 
-    double critical_step() const noexcept { return critical_step_; } ///< at rest [s]
-    double substep() const noexcept { return substep_; }             ///< asked for [s]
-    void set_substep(double dt) noexcept { substep_ = dt; }          ///< 0 < dt <= critical_step()
+    /// Of the integrator, at rest [s]. 0: undamped modes grow at any step; infinite: at none.
+    double critical_step() const noexcept { return critical_step_; }
+    /// Longest that is taken [s]: the critical one, where there is one.
+    double longest_substep() const noexcept { return longest_substep_; }
+    double substep() const noexcept { return substep_; }    ///< asked for [s]
+    void set_substep(double dt) noexcept { substep_ = dt; } ///< 0 < dt <= longest_substep()
     void use_default_substep() noexcept;
 
     const ContactLaw& contact_law() const noexcept { return contact_law_; }
@@ -105,7 +109,8 @@ private:
     friend class RigidExchange;
 
     /// Takes over a mesh that has the nodes of the body's own first. @throws InputError
-    void build(TetMesh mesh, const std::string& model);
+    void build(TetMesh mesh, const BodyForm& form);
+    void find_critical_step(const IntegratorKind& method);
     void hold(int node) noexcept;
 
     Aabb aabb() noexcept override;
@@ -141,6 +146,7 @@ private:
     Surface surface_;
     std::unique_ptr<ElasticModel> model_;
     std::unique_ptr<Integrator> integrator_;
+    bool is_explicit_ = true; ///< the integrator
     NodeState state_;
     NodeState checkpoint_; ///< at the start of the step, to return to when the step fails
     NodeArray force_;      ///< [N]
@@ -155,6 +161,7 @@ private:
     ContactLaw contact_law_;
     double total_mass_;
     double critical_step_;
+    double longest_substep_;
     double substep_;
     double undamped_ = 0;      ///< time since mass-proportional damping was last applied [s]
     double checkpoint_dt_ = 0; ///< last_dt_ of the checkpoint [s]

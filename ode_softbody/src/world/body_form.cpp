@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "integrate/critical_step.h"
+#include "integrate/largest_frequency.h"
 #include "mesh/promote.h"
 #include "mesh/quality.h"
 #include "model/check_solid.h"
@@ -79,14 +80,14 @@ Body::Body(SoftWorld& world, const TetMesh& mesh, std::span<const Solid> solids)
         rest.position[i] = mesh.node[i];
     state_ = std::move(rest);
     external_ = NodeArray(given_nodes_);
-    build(std::move(own), form_.model);
+    build(std::move(own), form_);
     geom_ = create_soft_geom(world.space(), *this);
 }
 
 CurveReport Body::set_form(const BodyForm& form) {
     if (stepped_)
-        throw InputError("the body has been stepped already; choose its order, material model and "
-                         "curvature before its first step");
+        throw InputError("the body has been stepped already; choose its order, material model, "
+                         "curvature and integrator before its first step");
     if (form.order != 1 && form.order != 2)
         throw InputError(format("there are no elements of order %d; give 1 or 2", form.order));
     if (form.order < given_order_)
@@ -102,15 +103,17 @@ CurveReport Body::set_form(const BodyForm& form) {
     if (form.order == 2)
         mesh = promote_to_quadratic(mesh);
     const CurveReport report = form.curved ? curve_surface(mesh) : CurveReport{};
-    build(std::move(mesh), form.model);
+    build(std::move(mesh), form);
     form_ = form;
+    form_.integrator = integrator_kind(form.integrator).name;
     moved();
     return report;
 }
 
-void Body::build(TetMesh mesh, const std::string& model_name) {
+void Body::build(TetMesh mesh, const BodyForm& form) {
+    const IntegratorKind& method = integrator_kind(form.integrator);
     Surface surface = extract_surface(mesh);
-    auto model = make_model(model_name, mesh, solids_);
+    auto model = make_model(form.model, mesh, solids_);
     const auto least = std::min_element(model->mass().begin(), model->mass().end());
     if (!(*least > 0))
         throw InputError(
@@ -137,18 +140,33 @@ void Body::build(TetMesh mesh, const std::string& model_name) {
     external_ = std::move(external);
     force_ = NodeArray(mesh_.node.size());
     load_ = NodeArray(mesh_.node.size());
-    integrator_ = make_integrator("central_difference", mesh_.node.size());
+    integrator_ = method.make(mesh_.node.size());
+    is_explicit_ = !method.implicit;
     total_mass_ = std::accumulate(mass().begin(), mass().end(), 0.0);
     std::vector<int> pinned = std::move(pinned_);
     std::erase_if(pinned, [&](int node) { return static_cast<std::size_t>(node) >= given_nodes_; });
     unpin();
-    double viscous = 0;
-    for (const Solid& solid : solids_)
-        viscous = std::max(viscous, viscous_time(solid));
     // Unpinned: a bound for whatever is held later.
-    critical_step_ = ode::soft::critical_step(*model_, inverse_mass_, state_.position, viscous);
+    find_critical_step(method);
     pin(pinned);
     use_default_substep();
+}
+
+void Body::find_critical_step(const IntegratorKind& method) {
+    if (method.implicit) {
+        critical_step_ = longest_substep_ = std::numeric_limits<double>::infinity();
+        return;
+    }
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (const Solid& solid : solids_) {
+        least = std::min(least, least_viscous_time(solid));
+        most = std::max(most, viscous_time(solid));
+    }
+    const double frequency =
+        largest_frequency(model_->stiffness(state_.position), inverse_mass_).upper;
+    critical_step_ = ode::soft::critical_step(method, frequency, least, most);
+    // Where modes grow at any step, slowly at a short one: for comparison.
+    longest_substep_ = critical_step_ > 0 ? critical_step_ : 0.1 * 2 / frequency;
 }
 
 } // namespace ode::soft

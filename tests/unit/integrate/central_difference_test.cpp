@@ -1,47 +1,17 @@
 #include "integrate/central_difference.h"
 
-#include "base/error.h"
-#include "model/stvk_linear.h"
+#include "integrate/oscillator.h"
 #include "unit/model/specimens.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 namespace ode::soft {
 namespace {
 
-/// Unit masses on springs to the origin, f = -w^2 x - c v: the modes of any linear body.
-class Springs final : public ElasticModel {
-public:
-    Springs(std::size_t nodes, double square, double damping)
-        : mass_(nodes, 1.0), square_(square), damping_(damping) {}
-    std::size_t node_count() const noexcept override { return mass_.size(); }
-    std::span<const double> mass() const noexcept override { return mass_; }
-    StrainExtremes add_force(const NodeArray& x, const NodeArray& v,
-                             NodeArray& force) const noexcept override {
-        for (std::size_t i = 0; i < mass_.size(); ++i)
-            force[i] -= square_ * x[i] + damping_ * v[i];
-        return {};
-    }
-    double energy(const NodeArray& x) const noexcept override { return square_ * dot(x, x) / 2; }
-    Eigen::SparseMatrix<double> stiffness(const NodeArray&) const override {
-        const auto n = static_cast<Eigen::Index>(3 * mass_.size());
-        Eigen::SparseMatrix<double> k(n, n);
-        k.setIdentity();
-        return square_ * k;
-    }
-    Eigen::SparseMatrix<double> consistent_mass() const override { return stiffness({}) / square_; }
-    double max_frequency_bound() const override { return std::sqrt(square_); }
-
-private:
-    std::vector<double> mass_;
-    double square_, damping_;
-};
-
 struct Swing {
-    Springs springs;
+    Oscillator springs;
     std::vector<double> inverse_mass;
     NodeInertia inertia;
     NodeState state;
@@ -49,7 +19,7 @@ struct Swing {
     CentralDifference method;
 
     Swing(double square, double damping, double alpha)
-        : springs(1, square, damping),
+        : springs(std::sqrt(square), damping / (2 * std::sqrt(square))),
           inverse_mass{1.0}, inertia{inverse_mass, alpha}, state{NodeArray(1), NodeArray(1)},
           force(1) {}
 
@@ -170,17 +140,6 @@ TEST(CentralDifference, HeldNodesKeepTheirVelocity) {
     EXPECT_LE((state.velocity[1] - gain * Vec3(5, 10, 15)).norm(), 1e-14);
     EXPECT_EQ(state.position.data()[3], 0);
     EXPECT_EQ(state.velocity.data()[7], 0);
-}
-
-TEST(Integrator, IsMadeByNameAndListsTheNames) {
-    for (const std::string_view name : integrator_names())
-        EXPECT_EQ(make_integrator(name, 4)->name(), name);
-    try {
-        make_integrator("leapfrgo", 4);
-        FAIL();
-    } catch (const InputError& error) {
-        EXPECT_NE(std::strstr(error.what(), "central_difference"), nullptr);
-    }
 }
 
 } // namespace

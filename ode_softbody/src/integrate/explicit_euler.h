@@ -1,0 +1,18 @@
+#pragma once
+
+#include "integrate/integrator.h"
+
+namespace ode::soft {
+
+/// Explicit (forward) Euler: x += h v, v += h a, both slopes from the start. First order. Turns
+/// every undamped oscillation into an outward spiral, |z|^2 = 1 + (w h)^2: only damping makes a
+/// step stable. Here to be compared with.
+class ExplicitEuler final : public Integrator {
+public:
+    StrainExtremes evaluate(const ElasticModel& model, const NodeState& state,
+                            NodeArray& force) noexcept override;
+    StrainExtremes step(const ElasticModel& model, const NodeInertia& inertia, double h,
+                        NodeState& state, NodeArray& force) noexcept override;
+};
+
+} // namespace ode::soft
