@@ -331,7 +331,8 @@ DSOFT_API int dSoftBodyGetStatus(dSoftBodyID body, dSoftStatus* status);
  * @return how many were written. */
 DSOFT_API int dSoftBodyGetModes(dSoftBodyID body, int count, dReal* frequencies);
 
-/** The geom that stands for the body in its space. Do not destroy it. */
+/** The geom that stands for the body in its space. Do not destroy it. Under dSoftHookInterposed
+ * dSpaceGetNumGeoms() and dSpaceGetGeom() pass over it. */
 DSOFT_API dGeomID dSoftBodyGetGeom(dSoftBodyID body);
 /** The body behind a geom, NULL if there is none. */
 DSOFT_API dSoftBodyID dSoftGeomGetSoftBody(dGeomID geom);

@@ -135,6 +135,18 @@ SoftGeomClient* soft_geom_client(dGeomID geom) noexcept {
     return std::find(live.begin(), live.end(), geom) == live.end() ? nullptr : data_of(geom).client;
 }
 
+bool is_soft_geom(dGeomID geom) noexcept {
+    return class_number != 0 && dGeomGetClass(geom) == class_number;
+}
+
+int soft_geoms_in(dSpaceID space) noexcept {
+    if (class_number == 0)
+        return 0;
+    const std::lock_guard guard(lock);
+    return static_cast<int>(std::count_if(live_geoms().begin(), live_geoms().end(),
+                                          [&](dGeomID g) { return dGeomGetSpace(g) == space; }));
+}
+
 void collide_now(dGeomID geom) noexcept {
     dSpaceID top = dGeomGetSpace(geom);
     if (!top)

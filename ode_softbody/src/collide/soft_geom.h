@@ -50,6 +50,12 @@ void mark_moved(dGeomID geom) noexcept;
 /// nullptr for any geom that create_soft_geom() did not make.
 SoftGeomClient* soft_geom_client(dGeomID geom) noexcept;
 
+/// Whether it is one of ours. @param geom  of any kind; it exists.
+bool is_soft_geom(dGeomID geom) noexcept;
+
+/// How many of ours lie in a space itself, those in spaces within not counted.
+int soft_geoms_in(dSpaceID space) noexcept;
+
 /// Makes the geom meet everything in the topmost space it lies in, for applications that have not
 /// collided their space since the last step. No near callback is involved.
 void collide_now(dGeomID geom) noexcept;

@@ -31,7 +31,7 @@ dSoftMeshID far_corners() {
 }
 
 struct Totals {
-    int bodies = 0, stopped = 0;
+    int bodies = 0, stopped = 0, unhooked = 0;
     unsigned long steps = 0, tests = 0, contacts = 0;
 };
 
@@ -77,6 +77,7 @@ void put_body(dWorldID world, dSpaceID space) {
     if (dSoftBodyPinNodes(body, all, 8) != 8)
         std::abort();
     ++state().totals.bodies;
+    state().totals.unhooked += dSoftWorldGetHook(soft) != dSoftHookInterposed;
     dSoftObserver watch{};
     watch.struct_size = sizeof watch;
     watch.data = &state();
@@ -151,8 +152,8 @@ void on_closed() {
     std::FILE* out = path ? std::fopen(path, "w") : nullptr;
     if (!out)
         return;
-    std::fprintf(out, "bodies %d\nsteps %lu\ntests %lu\ncontacts %lu\nstopped %d\n", t.bodies,
-                 t.steps, t.tests, t.contacts, t.stopped);
+    std::fprintf(out, "bodies %d\nsteps %lu\ntests %lu\ncontacts %lu\nstopped %d\nunhooked %d\n",
+                 t.bodies, t.steps, t.tests, t.contacts, t.stopped, t.unhooked);
     std::fclose(out);
 }
 

@@ -1,11 +1,12 @@
 // The loop of drawstuff's interface, without a window: a fixed number of frames, keys from a
 // script, clocks that keep the same pace in every run. What was drawn and where the bodies went is
-// written to a file at exit.
+// written to a file when a loop ends.
 //
-//   CONFORMANCE_FRAMES  frames to run, all loops together; default 300
-//   CONFORMANCE_KEYS    "frame:keys" separated by commas: the frame before which keys are pressed
-//   CONFORMANCE_REPORT  file to write: "frames N", "calls N", "drawn HEX", "state HEX",
-//                       "energy MOST" (of the bodies, over the frames, in J), bodies
+//   CONFORMANCE_FRAMES  frames of each loop; default 300
+//   CONFORMANCE_KEYS    "frame:keys" separated by commas: pressed before that frame
+//   CONFORMANCE_REPORT  file to write, a line each: "frames", "things", "seen" and "sequence" (see
+//                       picture.h), "state" of the bodies after every frame, "energy" [J], the most
+//                       that the bodies had in a frame, and "body x y z" of each at last [m]
 
 #include "bodies.h"
 #include "picture.h"
@@ -42,9 +43,11 @@ void report() {
     std::FILE* out = path ? std::fopen(path, "w") : nullptr;
     if (!out)
         return;
-    std::fprintf(out, "frames %d\ncalls %lu\ndrawn %016llx\nstate %016llx\nenergy %.9g\n", frames,
-                 picture().calls, static_cast<unsigned long long>(picture().print.value()),
-                 static_cast<unsigned long long>(state.value()), most_energy);
+    const auto hex = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+    std::fprintf(out, "frames %d\nthings %lu\nseen %016llx\nsequence %016llx\nstate %016llx\n",
+                 frames, picture().things(), hex(picture().seen()), hex(picture().sequence()),
+                 hex(state.value()));
+    std::fprintf(out, "energy %.9g\n", most_energy);
     write_bodies(out);
     std::fclose(out);
 }
@@ -84,7 +87,9 @@ void dsSimulationLoop(int, char**, int, int, dsFunctions* demo) {
         demo->start();
     for (int left = most; left > 0 && !stopped; --left, ++frames) {
         press_keys(*demo);
+        picture().begin_frame();
         demo->step(0);
+        picture().end_frame();
         add_bodies(state);
         const double energy = energy_of_bodies();
         most_energy = energy > most_energy || std::isnan(energy) ? energy : most_energy;

@@ -4,6 +4,7 @@
 
 #include <drawstuff/drawstuff.h>
 
+#include <algorithm>
 #include <cstring>
 #include <type_traits>
 
@@ -12,6 +13,30 @@ namespace ode::conformance {
 Picture& picture() noexcept {
     static Picture whole;
     return whole;
+}
+
+void Picture::set_colour(float r, float g, float b, float a) noexcept {
+    const float colour[] = {r, g, b, a};
+    std::copy_n(colour, 4, colour_);
+}
+
+void Picture::draw(Fingerprint thing) noexcept {
+    thing.add(colour_, sizeof colour_);
+    thing.add(&texture_, sizeof texture_);
+    const std::uint64_t value = thing.value();
+    sequence_.add(&value, sizeof value);
+    frame_ += value;
+    ++things_;
+}
+
+void Picture::begin_frame() noexcept {
+    set_colour(1, 1, 1, 1);
+    set_texture(0);
+}
+
+void Picture::end_frame() noexcept {
+    seen_.add(&frame_, sizeof frame_);
+    frame_ = 0;
 }
 
 namespace {
@@ -24,18 +49,19 @@ struct Array {
 };
 
 template <class Number>
-void add(const Array<Number>& a) noexcept {
-    picture().print.add(a.first, a.count * sizeof(Number));
+void add(Fingerprint& to, const Array<Number>& a) noexcept {
+    to.add(a.first, a.count * sizeof(Number));
 }
 template <class Number>
 requires std::is_arithmetic_v<Number>
-void add(Number value) noexcept { picture().print.add(&value, sizeof value); }
+void add(Fingerprint& to, Number value) noexcept { to.add(&value, sizeof value); }
 
 template <class... Arguments>
-void drawn(const char* call, const Arguments&... arguments) noexcept {
-    ++picture().calls;
-    picture().print.add(call, std::strlen(call));
-    (add(arguments), ...);
+void drawn(const char* kind, const Arguments&... arguments) noexcept {
+    Fingerprint thing;
+    thing.add(kind, std::strlen(kind));
+    (add(thing, arguments), ...);
+    picture().draw(thing);
 }
 
 /// Position, and the three rows of a rotation: the fourth number of each row is padding.
@@ -63,12 +89,12 @@ using namespace ode::conformance;
 
 extern "C" {
 
-void dsSetTexture(int number) { drawn("texture", number); }
-void dsSetColor(float r, float g, float b) { drawn("color", r, g, b); }
-void dsSetColorAlpha(float r, float g, float b, float a) { drawn("color", r, g, b, a); }
-void dsSetSphereQuality(int n) { drawn("sphere quality", n); }
-void dsSetCapsuleQuality(int n) { drawn("capsule quality", n); }
-void dsSetDrawMode(int mode) { drawn("mode", mode); }
+void dsSetTexture(int number) { picture().set_texture(number); }
+void dsSetColor(float r, float g, float b) { picture().set_colour(r, g, b, 1); }
+void dsSetColorAlpha(float r, float g, float b, float a) { picture().set_colour(r, g, b, a); }
+void dsSetSphereQuality(int) {}
+void dsSetCapsuleQuality(int) {}
+void dsSetDrawMode(int) {}
 
 void dsDrawBox(const float* pos, const float* R, const float* sides) {
     placed("box", pos, R, Array{sides, 3});
