@@ -35,6 +35,9 @@ END {
     gained = soft["brought"] > 0 ? (energy[2] - energy[1]) / soft["brought"] : 0
     if (bounded == "yes" && !(gained <= 1))
         complain("the rigid bodies gained " gained " times the energy that it brought")
+    # Rounding of the printed figures aside.
+    if (bounded == "yes" && soft["gain"] > 1.001)
+        complain("it became " soft["gain"] " times as fast as its fall explains")
     cost = soft["seconds"] > 0 ? soft["cpu"] / soft["seconds"] : 0
     printf "%s %d %.3g %.3g %.3g %.3g %.2g\n", row, soft["contacts"], soft["impulse"], moved,
         gained, soft["peak"], cost
