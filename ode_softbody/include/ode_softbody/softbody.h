@@ -289,6 +289,16 @@ typedef struct dSoftContact {
 DSOFT_API dSoftContact dSoftContactDefault(void);
 DSOFT_API int dSoftBodySetContact(dSoftBodyID body, const dSoftContact* contact);
 
+/** Asked once a step for each pair of a soft body's geom and a rigid geom that come near each
+ * other, after ODE has applied category bits, collide bits and dGeomDisable(). Must not change the
+ * world.
+ * @param contact  in: the soft body's own; out: how these two meet in this step, in N, m and s.
+ * @return 0: they pass through each other in this step. */
+typedef int dSoftContactCallback(void* data, dGeomID soft, dGeomID rigid, dSoftContact* contact);
+/** Lets the application choose the contact of every pair; NULL: the soft bodies' own again. */
+DSOFT_API int dSoftWorldSetContactCallback(dSoftWorldID world, dSoftContactCallback* callback,
+                                           void* data);
+
 /** Positions and velocities of all nodes in the mesh's order; borrowed until the next step or
  * change of order.
  * @param first  out: x of node 0.

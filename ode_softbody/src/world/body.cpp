@@ -35,8 +35,10 @@ double rung_above(double stretch) noexcept {
 } // namespace
 
 Body::~Body() {
-    if (geom_)
-        destroy_soft_geom(geom_);
+    if (!geom_)
+        return;
+    forget_space(geom_);
+    destroy_soft_geom(geom_);
 }
 
 Body* Body::behind(dGeomID geom) noexcept { return static_cast<Body*>(soft_geom_client(geom)); }
@@ -232,7 +234,6 @@ void Body::stop() noexcept {
 }
 
 Aabb Body::aabb() noexcept {
-    collided_ = true;
     Aabb box = Aabb::empty();
     for (const int node : surface_.node)
         box.include(state_.position[static_cast<std::size_t>(node)]);
@@ -242,6 +243,12 @@ Aabb Body::aabb() noexcept {
 }
 
 void Body::on_pair(dGeomID other) noexcept {
+    if (!world_.meeting_) { // the application collides its spaces; meet() will look again
+        const dGeomID top = topmost(other);
+        if (top != topmost(geom_))
+            world_.other_spaces_.add(geom_, top);
+        return;
+    }
     if (std::find(pair_.begin(), pair_.end(), other) == pair_.end())
         pair_.push_back(other);
 }
@@ -251,6 +258,7 @@ int Body::on_ray(dGeomID ray, int flags, dContactGeom* contact, int skip) noexce
 }
 
 void Body::on_destroyed() noexcept {
+    forget_space(geom_);
     geom_ = nullptr; // the application's id of the body stays good; it only meets nothing any more
 }
 

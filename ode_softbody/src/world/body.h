@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/live_id.h"
 #include "collide/soft_geom.h"
 #include "couple/node_contact.h"
 #include "integrate/integrator.h"
@@ -8,6 +9,7 @@
 #include "mesh/tet_mesh.h"
 #include "model/elastic_model.h"
 #include "model/solid.h"
+#include "world/rigid_pairs.h"
 
 #include <memory>
 #include <span>
@@ -99,6 +101,7 @@ public:
     std::size_t bearing_points() const noexcept { return bearing_points_; }
 
     void* data = nullptr; ///< the application's
+    void* id() const noexcept { return id_.value(); }
 
 private:
     friend class SoftWorld;
@@ -166,9 +169,10 @@ private:
     int failures_ = 0; ///< attempts at this step that went unstable
     bool stepped_ = false;
     bool stopped_ = false;
-    bool collided_ = false;     ///< the space has looked at the geom since the last step
-    std::vector<dGeomID> pair_; ///< rigid geoms met since the last step
+    std::vector<dGeomID> pair_;         ///< geoms near in this step
+    std::vector<RigidPair> rigid_pair_; ///< those of them that bear contact in this step
     dGeomID geom_ = nullptr;
+    LiveId<Body> id_{*this};
 };
 
 } // namespace ode::soft
