@@ -64,4 +64,40 @@ TEST(Allocation, StepWithContactAndObserverAllocatesNothing) {
     EXPECT_GT(status.contact_points, 0) << "the test must cover contact";
 }
 
+TEST(Allocation, StepOfAnAttachedBodyAllocatesNothing) {
+    ode::test::OdeApp app;
+    WorldHandle soft(dSoftWorldCreate(app.world, app.space));
+    const dSoftSolid solid = dSoftSolidDefault();
+    const MeshHandle mesh(dSoftMeshCreateBox(0.1, 0.1, 0.1, 2, 2, 2));
+    const dSoftBodyID body = dSoftBodyCreate(soft, mesh, &solid);
+    const dBodyID ball = app.add_sphere(0.03, 1, 0.1);
+    const int nodes[] = {0, 1, 2};
+    ASSERT_EQ(dSoftBodyAttachNodes(body, ball, nodes, 3), 3);
+    for (int i = 0; i < 3; ++i)
+        dSoftWorldStep(soft, 1e-4, no_rigid_step);
+    const long before = allocations;
+    for (int i = 0; i < 20; ++i)
+        dSoftWorldStep(soft, 1e-4, no_rigid_step);
+    EXPECT_EQ(allocations - before, 0);
+}
+
+// A program that has no soft body, and one that has an empty soft world.
+TEST(Allocation, IdlePlugInAllocatesNothing) {
+    ode::test::OdeApp app(-9.81);
+    dCreatePlane(app.space, 0, 0, 1, 0);
+    for (int i = 0; i < 10; ++i)
+        dBodySetPosition(app.add_sphere(0.1, 1, 0.1), i, 0, 0.1);
+    const auto counted_steps = [&] {
+        for (int i = 0; i < 10; ++i) // ODE's own buffers
+            app.step(0.004);
+        const long before = allocations;
+        for (int i = 0; i < 50; ++i)
+            app.step(0.004);
+        return allocations - before;
+    };
+    EXPECT_EQ(counted_steps(), 0);
+    const WorldHandle soft(dSoftWorldCreate(app.world, app.space));
+    EXPECT_EQ(counted_steps(), 0);
+}
+
 } // namespace

@@ -7,7 +7,8 @@
  *
  * Conventions, as in ODE: SI units, world frame, outputs last, opaque ids, functions return 0 or
  * NULL on failure after a sentence through ODE's message handler (dSetMessageHandler). A NULL id is
- * a caller's bug and ends in dDebug. Not thread-safe per world: call from the thread that steps it.
+ * a caller's bug and ends in dDebug; an id whose object has ended is told apart, and destroying it
+ * once more does nothing. Bodies come, go and are placed between steps, outside of near callbacks. Not thread-safe per world: call from the thread that steps it.
  */
 #ifndef ODE_SOFTBODY_SOFTBODY_H
 #define ODE_SOFTBODY_SOFTBODY_H
@@ -30,7 +31,9 @@ typedef enum dSoftHook {
     dSoftHookNone,       /**< it doesn't: call dSoftWorldStep() */
     dSoftHookInterposed, /**< dWorldStep and dWorldQuickStep are ours: linked before ODE, preloaded
                           */
-    dSoftHookThreading   /**< a wrapped threading implementation of the world announces the step */
+    dSoftHookThreading   /**< the library came too late for that; a threading implementation before
+                              the world's own announces the step, until the application sets
+                              another. A sleeping rigid body hit then wakes a step late */
 } dSoftHook;
 
 /** A world of soft bodies living in an ODE world and colliding in one of its spaces.
@@ -275,6 +278,16 @@ DSOFT_API int dSoftBodyAddAngularVel(dSoftBodyID body, dReal x, dReal y, dReal z
 DSOFT_API int dSoftBodyPinNodes(dSoftBodyID body, const int* nodes, int count);
 /** Frees all held nodes. */
 DSOFT_API void dSoftBodyUnpin(dSoftBodyID body);
+
+/** Nails nodes to a rigid body where they are now: they keep their places in its frame, it feels
+ * their inertia and forces, and the two don't collide with each other. Of a promoted mesh the
+ * middle of each edge between such nodes goes along. Choose the order and material model before.
+ * Ends with dSoftBodyDetachNodes(), or with the rigid body, after a message.
+ * @param rigid  NULL: the world, as dSoftBodyPinNodes().
+ * @return number of nodes nailed to this rigid body; 0 on failure. */
+DSOFT_API int dSoftBodyAttachNodes(dSoftBodyID body, dBodyID rigid, const int* nodes, int count);
+/** Frees all nodes nailed to a rigid body, or to the world (NULL). @return how many. */
+DSOFT_API int dSoftBodyDetachNodes(dSoftBodyID body, dBodyID rigid);
 
 /** Force on a node [N] during the next step, added to what was added before. */
 DSOFT_API int dSoftBodyAddForceAtNode(dSoftBodyID body, int node, dReal fx, dReal fy, dReal fz);

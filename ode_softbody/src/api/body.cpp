@@ -5,6 +5,7 @@
 #include "api/versioned.h"
 #include "modal/solve_modes.h"
 
+#include <ode/objects.h>
 #include <ode/odemath.h>
 
 #include <algorithm>
@@ -161,6 +162,34 @@ void dSoftBodyUnpin(dSoftBodyID id) {
     if (!body)
         return;
     body->unpin();
+}
+
+int dSoftBodyAttachNodes(dSoftBodyID id, dBodyID rigid, const int* nodes, int count) {
+    if (!rigid)
+        return dSoftBodyPinNodes(id, nodes, count);
+    Body* body = live(id, __func__);
+    if (!body || !may_edit(body->world(), __func__))
+        return 0;
+    for (int i = 0; i < count; ++i)
+        if (!has_node(*body, nodes[i], __func__))
+            return 0;
+    return guarded(__func__, 0, [&] {
+        if (dBodyGetWorld(rigid) != body->world().ode_world())
+            throw InputError("the rigid body is of another ODE world than the soft one's");
+        return body->world().attachments().attach(
+            *body, rigid, {nodes, static_cast<std::size_t>(std::max(count, 0))});
+    });
+}
+
+int dSoftBodyDetachNodes(dSoftBodyID id, dBodyID rigid) {
+    Body* body = live(id, __func__);
+    if (!body || !may_edit(body->world(), __func__))
+        return 0;
+    if (rigid)
+        return body->world().attachments().detach(*body, rigid);
+    const auto held = static_cast<int>(body->pinned().size());
+    body->unpin();
+    return held;
 }
 
 int dSoftBodyAddForceAtNode(dSoftBodyID id, int node, dReal fx, dReal fy, dReal fz) {

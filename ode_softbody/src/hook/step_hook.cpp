@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "hook/interposed.h"
-#include "hook/step_length.h"
+#include "hook/ode_layout.h"
 #include "hook/threading_shim.h"
 #include "hook/world_watch.h"
 #include "world/registry.h"
@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace ode::soft {
@@ -23,25 +25,37 @@ constexpr const char* kCure =
 /// Steps a soft world whose ODE world is stepped behind our back.
 class ThreadingHook final : public StepListener {
 public:
-    ThreadingHook(SoftWorld& soft, std::size_t offset)
-        : soft_(&soft), world_(soft.ode_world()), offset_(offset), watch_(world_), shim_(*this) {}
+    explicit ThreadingHook(SoftWorld& soft)
+        : soft_(&soft), world_(soft.ode_world()), layout_(ode_layout()), watch_(world_) {
+        if (!layout_)
+            return;
+        // The application's thread pool goes on working, behind ours.
+        functions_ = value_at<const dThreadingFunctionsInfo*>(world_, layout_->functions);
+        behind_ = value_at<dThreadingImplementationID>(world_, layout_->implementation);
+        if (behind_)
+            shim_.emplace(*this, functions_, behind_);
+        else
+            shim_.emplace(*this);
+        if (shim_->usable())
+            shim_->give_to(world_);
+    }
     ~ThreadingHook() {
-        if (!watch_.gone() && installed())
-            dWorldSetStepThreadingImplementation(world_, nullptr, nullptr);
+        if (installed())
+            dWorldSetStepThreadingImplementation(world_, behind_ ? functions_ : nullptr, behind_);
     }
 
-    void install() noexcept {
-        if (shim_.usable())
-            shim_.give_to(world_);
+    /// Whether the world still has it: the application may have given it another implementation.
+    bool installed() noexcept {
+        return shim_ && !watch_.gone() &&
+               value_at<dThreadingImplementationID>(world_, layout_->implementation) == shim_->id();
     }
-    bool installed() noexcept { return shim_.usable() && shim_.is_of(world_); }
     bool orphaned() const noexcept { return watch_.gone(); }
     bool serves(const SoftWorld& soft) const noexcept { return soft_ == &soft; }
     bool idle() const noexcept { return !soft_; }
     void let_go() noexcept { soft_ = nullptr; }
 
     void on_step_posted(const void* context) noexcept override {
-        stepping_ = soft_ && soft_->begin_step(read_step_length(context, offset_));
+        stepping_ = soft_ && soft_->begin_step(value_at<double>(context, layout_->step_length));
     }
     void on_step_done() noexcept override {
         if (stepping_)
@@ -49,17 +63,25 @@ public:
         stepping_ = false;
     }
     void on_released() noexcept override {
-        if (soft_ && watch_.gone())
+        if (!soft_)
+            return;
+        if (watch_.gone())
             forget_world(world_);
+        else
+            report(format("the world's threading implementation was changed, so that its steps "
+                          "move no soft bodies any more; %s",
+                          kCure));
     }
 
 private:
     SoftWorld* soft_;
     dWorldID world_;
-    std::size_t offset_;
-    bool stepping_ = false;
+    std::optional<OdeLayout> layout_;
     WorldWatch watch_;
-    ThreadingShim shim_;
+    const dThreadingFunctionsInfo* functions_ = nullptr; ///< the world had before, with behind_
+    dThreadingImplementationID behind_ = nullptr;        ///< nullptr: ODE's default
+    std::optional<ThreadingShim> shim_;
+    bool stepping_ = false;
 };
 
 std::mutex lock;
@@ -95,22 +117,12 @@ private:
 void attach_hook(SoftWorld& world) {
     if (steps_are_interposed(world.ode_world()))
         return;
-    const std::optional<std::size_t> offset = step_length_offset();
-    const unsigned threads = dWorldGetStepIslandsProcessingMaxThreadCount(world.ode_world());
-    auto made = std::make_unique<ThreadingHook>(world, offset.value_or(0));
+    auto made = std::make_unique<ThreadingHook>(world);
     world.add_observer(std::make_unique<Farewell>(*made));
-    if (offset)
-        made->install();
-    if (!offset || !made->installed()) {
-        static bool said = false;
-        if (!said)
-            report(format("dSoftWorldCreate: nothing tells this library of the world's steps, so "
-                          "soft bodies would stand still; %s",
-                          kCure));
-        said = true;
-    } else if (dWorldGetStepIslandsProcessingMaxThreadCount(world.ode_world()) != threads)
-        report(format("dSoftWorldCreate: the world's thread pool had to be taken out to learn of "
-                      "its steps, which now run on the calling thread; to keep it, %s",
+    static bool said = false;
+    if (!made->installed() && !std::exchange(said, true))
+        report(format("dSoftWorldCreate: nothing tells this library of the world's steps, so that "
+                      "soft bodies would stand still; %s",
                       kCure));
     const std::lock_guard guard(lock);
     std::erase_if(hooks(), [](const auto& hook) { return hook->idle(); });

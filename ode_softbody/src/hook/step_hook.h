@@ -8,7 +8,7 @@ class SoftWorld;
 enum class Hook { none, interposed, threading };
 
 /// Finds a way, and sees to it that the soft world ends with its ODE world.
-/// Says what to do when there is none, or when the way has a price.
+/// Says, the first time, what to do when there is none.
 void attach_hook(SoftWorld& world);
 
 /// The way in use now; the application may have taken it away.

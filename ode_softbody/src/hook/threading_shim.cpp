@@ -66,7 +66,6 @@ struct ThreadingShim::Forward {
             shim.listener_.on_step_done();
     }
     static unsigned thread_count(dThreadingImplementationID id) {
-        at(id).asked_ = true;
         return at(id).call_->retrieve_thread_count(at(id).real_);
     }
     static int preallocate(dThreadingImplementationID id, ddependencycount_t calls) {
@@ -76,14 +75,14 @@ struct ThreadingShim::Forward {
 
 ThreadingShim::ThreadingShim(StepListener& listener)
     : listener_(listener), real_(dThreadingAllocateSelfThreadedImplementation()),
-      call_(real_ ? dThreadingImplementationGetFunctions(real_) : nullptr) {}
+      call_(real_ ? dThreadingImplementationGetFunctions(real_) : nullptr), own_(true) {}
 
 ThreadingShim::~ThreadingShim() {
-    if (real_)
+    if (own_ && real_)
         dThreadingFreeImplementation(real_);
 }
 
-void ThreadingShim::give_to(dWorldID world) noexcept {
+const dThreadingFunctionsInfo* ThreadingShim::functions() noexcept {
     static const dThreadingFunctionsInfo functions = {sizeof(dThreadingFunctionsInfo),
                                                       &Forward::alloc_mutex_group,
                                                       &Forward::free_mutex_group,
@@ -97,14 +96,11 @@ void ThreadingShim::give_to(dWorldID world) noexcept {
                                                       &Forward::wait,
                                                       &Forward::thread_count,
                                                       &Forward::preallocate};
-    dWorldSetStepThreadingImplementation(world, &functions,
-                                         reinterpret_cast<dThreadingImplementationID>(this));
+    return &functions;
 }
 
-bool ThreadingShim::is_of(dWorldID world) noexcept {
-    asked_ = false;
-    dWorldGetStepIslandsProcessingMaxThreadCount(world); // asks the implementation
-    return asked_;
+void ThreadingShim::give_to(dWorldID world) noexcept {
+    dWorldSetStepThreadingImplementation(world, functions(), id());
 }
 
 } // namespace ode::soft

@@ -21,30 +21,35 @@ protected:
     ~StepListener() = default;
 };
 
-/// A threading implementation that runs everything on the calling thread, as ODE's default does,
-/// and tells of steps. ODE announces them by the name of a call it posts, the same since version
-/// 0.13.
+/// A threading implementation that hands everything on to another one and tells of steps. ODE
+/// announces them by the name of a call that it posts, the same since version 0.13.
 class ThreadingShim {
 public:
+    /// Before one that runs everything on the calling thread, as ODE's default does.
     explicit ThreadingShim(StepListener& listener);
+    /// Before one that is somebody else's.
+    ThreadingShim(StepListener& listener, const dThreadingFunctionsInfo* functions,
+                  dThreadingImplementationID behind) noexcept
+        : listener_(listener), real_(behind), call_(functions) {}
     ~ThreadingShim(); ///< no world may have it any more
     ThreadingShim(const ThreadingShim&) = delete;
     ThreadingShim& operator=(const ThreadingShim&) = delete;
 
     bool usable() const noexcept { return real_ != nullptr; }
     void give_to(dWorldID world) noexcept;
-    /// Whether the world still has it: the application may have given it another one.
-    bool is_of(dWorldID world) noexcept;
+    static const dThreadingFunctionsInfo* functions() noexcept;
+    dThreadingImplementationID id() noexcept {
+        return reinterpret_cast<dThreadingImplementationID>(this);
+    }
 
 private:
     struct Forward;
-    friend struct Forward;
 
     StepListener& listener_;
     dThreadingImplementationID real_; ///< does the work
     const dThreadingFunctionsInfo* call_;
+    bool own_ = false;            ///< real_ is to be freed
     const char* group_ = nullptr; ///< address of the name, once met
-    bool asked_ = false;
 };
 
 } // namespace ode::soft

@@ -94,13 +94,13 @@ void Body::rotate(const Quat& rotation) noexcept {
 
 void Body::set_velocity(const Vec3& velocity) noexcept {
     for (std::size_t i = 0; i < state_.velocity.size(); ++i)
-        state_.velocity[i] = inverse_mass_[i] > 0 ? velocity : Vec3::Zero();
+        state_.velocity[i] = is_pinned(static_cast<int>(i)) ? Vec3::Zero() : velocity;
 }
 
 void Body::add_spin(const Vec3& omega) noexcept {
     const Vec3 center = center_of_mass();
     for (std::size_t i = 0; i < state_.velocity.size(); ++i)
-        if (inverse_mass_[i] > 0)
+        if (!is_pinned(static_cast<int>(i)))
             state_.velocity[i] += omega.cross(state_.position[i] - center);
 }
 
@@ -116,22 +116,51 @@ void Body::hold(int node) noexcept {
 void Body::pin(std::span<const int> nodes) noexcept {
     for (const int node : nodes)
         hold(node);
+    each_middle([&](int a, int b, int middle) {
+        if (is_held(a) && is_held(b))
+            hold(middle);
+    });
+}
+
+template <class Visit>
+void Body::each_middle(Visit visit) const {
     if (mesh_.node.size() == given_nodes_)
         return;
-    const auto held = [&](int node) { return inverse_mass_[static_cast<std::size_t>(node)] == 0; };
     for (std::size_t e = 0; e < mesh_.element_count(); ++e) {
         const auto n = mesh_.nodes_of(e);
         for (std::size_t i = 0; i < 6; ++i)
-            if (held(n[static_cast<std::size_t>(kTetEdge[i][0])]) &&
-                held(n[static_cast<std::size_t>(kTetEdge[i][1])]))
-                hold(n[4 + i]);
+            visit(n[static_cast<std::size_t>(kTetEdge[i][0])],
+                  n[static_cast<std::size_t>(kTetEdge[i][1])], n[4 + i]);
     }
 }
 
+std::vector<int> Body::nail(std::span<const int> nodes) {
+    std::vector<std::uint8_t> taken(mesh_.node.size());
+    std::vector<int> all;
+    const auto take = [&](int node) {
+        if (is_held(node))
+            return;
+        all.push_back(node);
+        inverse_mass_[static_cast<std::size_t>(node)] = 0;
+        taken[static_cast<std::size_t>(node)] = 1;
+    };
+    for (const int node : nodes)
+        take(node);
+    each_middle([&](int a, int b, int middle) {
+        if (taken[static_cast<std::size_t>(a)] && taken[static_cast<std::size_t>(b)])
+            take(middle);
+    });
+    return all;
+}
+
+void Body::release(int node) noexcept {
+    const auto i = static_cast<std::size_t>(node);
+    inverse_mass_[i] = 1 / mass()[i];
+}
+
 void Body::unpin() noexcept {
-    inverse_mass_.resize(mass().size());
-    std::transform(mass().begin(), mass().end(), inverse_mass_.begin(),
-                   [](double m) { return 1 / m; });
+    for (const int node : pinned_)
+        release(node);
     pinned_.clear();
 }
 

@@ -11,6 +11,7 @@
 #include "model/solid.h"
 #include "world/rigid_pairs.h"
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -105,11 +106,25 @@ public:
 
 private:
     friend class SoftWorld;
+    friend class Attachments;
     friend class RigidExchange;
 
     /// Takes over a mesh that has the nodes of the body's own first. @throws InputError
     void build(TetMesh mesh, const std::string& model);
     void hold(int node) noexcept;
+    bool is_held(int node) const noexcept { ///< pinned or nailed
+        return inverse_mass_[static_cast<std::size_t>(node)] == 0;
+    }
+    bool is_pinned(int node) const noexcept {
+        return std::binary_search(pinned_.begin(), pinned_.end(), node);
+    }
+    /// For each edge of each element that promotion gave a node: visit(end, end, middle).
+    template <class Visit>
+    void each_middle(Visit visit) const;
+    /// Takes free nodes, and the middles of edges between them, out of the body's own motion:
+    /// somebody else moves them until release(). @return which.
+    std::vector<int> nail(std::span<const int> nodes);
+    void release(int node) noexcept;
 
     Aabb aabb() noexcept override;
     void on_pair(dGeomID other) noexcept override;

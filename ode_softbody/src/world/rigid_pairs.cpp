@@ -3,6 +3,9 @@
 #include "base/error.h"
 #include "collide/shape_fault.h"
 #include "world/body.h"
+#include "world/soft_world.h"
+
+#include <ode/collision.h>
 
 #include <algorithm>
 
@@ -19,7 +22,7 @@ void choose_pairs(Body& body, std::span<const dGeomID> met, const ContactChooser
                   Said& said, std::vector<RigidPair>& chosen) {
     chosen.clear();
     for (const dGeomID geom : met) {
-        if (Body::behind(geom))
+        if (Body::behind(geom) || body.world().attachments().has(body, dGeomGetBody(geom)))
             continue;
         if (!shape_is_sound(geom)) {
             if (said.first(geom))

@@ -44,6 +44,7 @@ Body& SoftWorld::create_body(const TetMesh& mesh, std::span<const Solid> solids)
 void SoftWorld::destroy_body(Body& body) noexcept {
     each_observer([&](Observer& observer) { observer.on_body_end(body); });
     exchange_.forget(body);
+    attachments_.forget(body);
     std::erase_if(body_, [&](const auto& b) { return b.get() == &body; });
 }
 
@@ -105,6 +106,7 @@ void SoftWorld::drop_past_observers() noexcept {
 }
 
 void SoftWorld::meet(double h) noexcept {
+    attachments_.check();
     meeting_ = true;
     for (const auto& body : body_) {
         body->pair_.clear();
@@ -134,7 +136,9 @@ double SoftWorld::common_substep(double h) const noexcept {
 bool SoftWorld::advance(double h) noexcept {
     if (std::all_of(body_.begin(), body_.end(), [](const auto& b) { return b->stopped(); }))
         return true;
-    exchange_.begin_step(body_, h, common_substep(h));
+    const double first = common_substep(h);
+    exchange_.begin_step(body_, h, first);
+    attachments_.begin_step(exchange_, h, first);
     for (const auto& body : body_)
         body->begin_step();
     double done = 0;
@@ -169,12 +173,14 @@ long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
         const ContactTally tally = exchange_.add_forces(dt);
         stats_.contact_tests += tally.tests;
         stats_.contact_points += tally.bearing;
+        attachments_.bind(exchange_, dt);
         exchange_.advance(dt);
         for (const auto& body : body_)
             if (!body->stopped()) {
                 body->advance(dt);
                 stats_.element_steps += body->mesh().element_count();
             }
+        attachments_.follow(exchange_);
         ++stats_.substeps;
         const bool look = i % kWatchInterval == 0 || i == substeps;
         if (look && !all_sound())

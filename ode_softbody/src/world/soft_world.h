@@ -4,6 +4,7 @@
 #include "base/types.h"
 #include "mesh/tet_mesh.h"
 #include "model/solid.h"
+#include "world/attachments.h"
 #include "world/body.h"
 #include "world/observer.h"
 #include "world/other_spaces.h"
@@ -82,6 +83,8 @@ public:
     /// Asked for every pair from the next step on; empty: the soft bodies' own laws hold.
     void set_contact_chooser(ContactChooser chooser) { contact_chooser_ = std::move(chooser); }
 
+    Attachments& attachments() noexcept { return attachments_; }
+
     double last_step() const noexcept { return last_step_; } ///< [s]; 0 before the first
 
 private:
@@ -125,6 +128,7 @@ private:
     ContactChooser contact_chooser_;
     Said said_; ///< of geoms that bear no contact
     RigidExchange exchange_;
+    Attachments attachments_;
     std::vector<std::unique_ptr<Body>> body_;
     std::vector<std::unique_ptr<Observer>> observer_;      ///< null: removed while busy
     std::vector<std::unique_ptr<Observer>> past_observer_; ///< removed, maybe still on the stack
