@@ -87,8 +87,7 @@ TEST_F(BadInput, SizesOfNothingAndInfinity) {
     for (int i = 0; i < 10; ++i)
         dWorldStep(world, kStep);
     EXPECT_EQ(Messages::with("size inf m"), 1) << Messages::text();
-    EXPECT_EQ(Messages::with("size 1, 1, 0 m"), 1) << Messages::text();
-    EXPECT_EQ(Messages::with("size 0 m"), 1) << Messages::text();
+    EXPECT_EQ(Messages::all().size(), 1u) << "ODE itself passes over geoms without size";
     EXPECT_LT(height_of(cube), 0.05 - 9.81 * 0.03 * 0.03 / 2);
 }
 

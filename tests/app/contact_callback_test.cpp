@@ -102,8 +102,9 @@ TEST_F(ContactCallback, GivesFriction) {
         const double got = (p1[0] - p0[0]) / mass / t;
         std::printf("friction %.1f: %.3f m/s^2, exact %.3f\n", friction, got, wanted);
         EXPECT_NEAR(got, wanted, 0.02 * 9.81);
-        if (wanted == 0)
+        if (wanted == 0) {
             EXPECT_NEAR(to[0], from[0], 1e-3);
+        }
         dSoftBodyDestroy(cube);
     }
 }
@@ -130,7 +131,7 @@ TEST_F(ContactCallback, IsNotAskedAboutPairsThatOdeRulesOut) {
     dSoftWorldSetContactCallback(soft, answer, &a);
     const auto asked_in_a_step = [&] {
         a.asked = 0;
-        dSoftBodySetPosition(cube, 0, 0, 0.05);
+        dSoftBodySetPosition(cube, 0, 0, 0.0499);
         step(kStep);
         return a.asked;
     };

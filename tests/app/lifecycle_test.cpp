@@ -239,21 +239,25 @@ TEST(Lifecycle, AnotherThreadMayStep) {
 }
 
 /// Runs a world of its own and returns the cube's heights.
+/// @param threads  of ODE's pool; 0: the calling one, but not by ODE's default implementation,
+/// which
+///                 worlds stepped at once must not share.
 std::vector<dReal> run_alone(dReal from, int threads) {
     dAllocateODEDataForThread(dAllocateMaskAll);
     const dWorldID world = dWorldCreate();
     dWorldSetGravity(world, 0, 0, -9.81);
     const dSpaceID space = dHashSpaceCreate(nullptr);
     dCreatePlane(space, 0, 0, 1, 0);
-    dThreadingImplementationID pool_implementation = nullptr;
     dThreadingThreadPoolID pool = nullptr;
+    const dThreadingImplementationID implementation =
+        threads > 0 ? dThreadingAllocateMultiThreadedImplementation()
+                    : dThreadingAllocateSelfThreadedImplementation();
+    dWorldSetStepThreadingImplementation(
+        world, dThreadingImplementationGetFunctions(implementation), implementation);
     if (threads > 0) {
-        pool_implementation = dThreadingAllocateMultiThreadedImplementation();
         pool = dThreadingAllocateThreadPool(static_cast<unsigned>(threads), 0, dAllocateMaskAll,
                                             nullptr);
-        dThreadingThreadPoolServeMultiThreadedImplementation(pool, pool_implementation);
-        dWorldSetStepThreadingImplementation(
-            world, dThreadingImplementationGetFunctions(pool_implementation), pool_implementation);
+        dThreadingThreadPoolServeMultiThreadedImplementation(pool, implementation);
     }
     const dSoftWorldID soft = dSoftWorldCreate(world, space);
     const dSoftBodyID cube = add_cube(soft, 0.1, from);
@@ -270,10 +274,10 @@ std::vector<dReal> run_alone(dReal from, int threads) {
     dWorldDestroy(world);
     dSpaceDestroy(space);
     if (pool) {
-        dThreadingImplementationShutdownProcessing(pool_implementation);
+        dThreadingImplementationShutdownProcessing(implementation);
         dThreadingFreeThreadPool(pool);
-        dThreadingFreeImplementation(pool_implementation);
     }
+    dThreadingFreeImplementation(implementation);
     dCleanupODEAllDataForThread();
     return heights;
 }

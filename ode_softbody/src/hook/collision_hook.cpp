@@ -7,7 +7,7 @@
 #include <ode/collision_space.h>
 #include <ode_softbody/export.h>
 
-// Collision functions of ODE that this library defines too: see step_hook.cpp.
+// Collision functions of ODE that this library defines too: see interposed.cpp.
 
 namespace ode::soft {
 namespace {

@@ -1,10 +1,9 @@
 #include "collide/soft_geom.h"
+#include "hook/next.h"
 
 #include <ode_softbody/export.h>
 
-#include <dlfcn.h>
-
-// ODE's listing of a space, which this library defines too (see step_hook.cpp): without soft geoms.
+// ODE's listing of a space, which this library defines too (see interposed.cpp): without soft geoms.
 // Programs that draw or delete what they find in their space know the kinds of geom they have put
 // there, and stop at others.
 
@@ -28,16 +27,13 @@ using namespace ode::soft;
 extern "C" {
 
 DSOFT_API int dSpaceGetNumGeoms(dSpaceID space) {
-    static const auto real =
-        reinterpret_cast<int (*)(dSpaceID)>(dlsym(RTLD_NEXT, "dSpaceGetNumGeoms"));
+    static const auto real = next_definition("dSpaceGetNumGeoms", &dSpaceGetNumGeoms);
     return real(space) - soft_geoms_in(space);
 }
 
 DSOFT_API dGeomID dSpaceGetGeom(dSpaceID space, int i) {
-    static const auto count =
-        reinterpret_cast<int (*)(dSpaceID)>(dlsym(RTLD_NEXT, "dSpaceGetNumGeoms"));
-    static const auto real =
-        reinterpret_cast<dGeomID (*)(dSpaceID, int)>(dlsym(RTLD_NEXT, "dSpaceGetGeom"));
+    static const auto count = next_definition("dSpaceGetNumGeoms", &dSpaceGetNumGeoms);
+    static const auto real = next_definition("dSpaceGetGeom", &dSpaceGetGeom);
     const int hidden = soft_geoms_in(space);
     if (hidden == 0)
         return real(space, i);

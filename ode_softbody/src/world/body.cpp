@@ -141,6 +141,7 @@ std::vector<int> Body::nail(std::span<const int> nodes) {
         if (is_held(node))
             return;
         all.push_back(node);
+        nailed_.push_back(node);
         inverse_mass_[static_cast<std::size_t>(node)] = 0;
         taken[static_cast<std::size_t>(node)] = 1;
     };
@@ -156,6 +157,14 @@ std::vector<int> Body::nail(std::span<const int> nodes) {
 void Body::release(int node) noexcept {
     const auto i = static_cast<std::size_t>(node);
     inverse_mass_[i] = 1 / mass()[i];
+    std::erase(nailed_, node);
+}
+
+void Body::set_nailed_mass(bool own) noexcept {
+    for (const int node : nailed_) {
+        const auto i = static_cast<std::size_t>(node);
+        inverse_mass_[i] = own ? 1 / mass()[i] : 0;
+    }
 }
 
 void Body::unpin() noexcept {
@@ -181,6 +190,8 @@ void Body::fit_velocity(double dt) noexcept {
         return;
     // A velocity half of another substep old would be a kick to every mode, largest for the
     // fastest: changing substeps would pump energy.
+    // Nailed nodes hand on what they get, so that the sum of all changes stays zero.
+    set_nailed_mass(true);
     const NodeInertia inertia{inverse_mass_};
     if (last_dt_ > 0) {
         force_.set_zero();
@@ -188,6 +199,7 @@ void Body::fit_velocity(double dt) noexcept {
     }
     force_.set_zero();
     integrator_->begin(*model_, inertia, dt, state_, force_);
+    set_nailed_mass(false);
     last_dt_ = dt;
 }
 

@@ -125,6 +125,7 @@ private:
     /// somebody else moves them until release(). @return which.
     std::vector<int> nail(std::span<const int> nodes);
     void release(int node) noexcept;
+    void set_nailed_mass(bool own) noexcept; ///< their own, or infinite as in substeps
 
     Aabb aabb() noexcept override;
     void on_pair(dGeomID other) noexcept override;
@@ -169,6 +170,7 @@ private:
     double max_alpha_;
     std::vector<double> inverse_mass_; ///< [1/kg], 0: held
     std::vector<int> pinned_;
+    std::vector<int> nailed_;
     SurfaceNodes contact_nodes_; ///< area, mass, neighbourhood of each surface node
     ContactLaw contact_law_;
     double total_mass_;
