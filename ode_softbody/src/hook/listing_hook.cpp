@@ -3,9 +3,9 @@
 
 #include <ode_softbody/export.h>
 
-// ODE's listing of a space, which this library defines too (see interposed.cpp): without soft geoms.
-// Programs that draw or delete what they find in their space know the kinds of geom they have put
-// there, and stop at others.
+// ODE's listing of a space, which this library defines too (see interposed.cpp): without soft
+// geoms. Programs that draw or delete what they find in their space know the kinds of geom they
+// have put there, and stop at others.
 
 namespace ode::soft {
 namespace {
