@@ -115,6 +115,16 @@ TEST_F(BadInput, LockedSpaces) {
     EXPECT_EQ(dSoftBodyGetMass(cube), 0);
 }
 
+TEST_F(BadInput, SpacesThatAreGone) {
+    const dSpaceID other = dSimpleSpaceCreate(nullptr);
+    const dWorldID second = dWorldCreate();
+    const dSoftWorldID lost = dSoftWorldCreate(second, other);
+    dSpaceDestroy(other);
+    EXPECT_EQ(add_cube(lost, 0.1, 1), nullptr);
+    EXPECT_EQ(Messages::with("space of the soft world is gone"), 1) << Messages::text();
+    dWorldDestroy(second);
+}
+
 TEST_F(BadInput, StepsThatAreNone) {
     const dSoftBodyID cube = add_cube(soft, 0.1, 1);
     for (const dReal h :

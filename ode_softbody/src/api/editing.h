@@ -4,6 +4,10 @@
 #include "hook/collision_hook.h"
 #include "world/soft_world.h"
 
+#include <ode/collision.h>
+
+#include <algorithm>
+
 namespace ode::soft {
 
 /// Whether bodies, geoms and observers may come, go and be moved at this moment: not while the
@@ -15,7 +19,10 @@ inline bool may_edit(const SoftWorld& world, const char* function) {
                       function));
         return false;
     }
-    if (within_collision()) {
+    const auto& bodies = world.bodies();
+    if (is_locked(world.space()) || std::any_of(bodies.begin(), bodies.end(), [](const auto& body) {
+            return body->geom() && is_locked(dGeomGetSpace(body->geom()));
+        })) {
         report(format("%s: refused within a near callback, whose space is locked; call it after "
                       "dSpaceCollide() has returned",
                       function));

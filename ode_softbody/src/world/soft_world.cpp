@@ -38,6 +38,8 @@ SoftWorld::~SoftWorld() {
 }
 
 Body& SoftWorld::create_body(const TetMesh& mesh, std::span<const Solid> solids) {
+    if (!space_)
+        throw InputError("the space of the soft world is gone; make a soft world in another one");
     return *body_.emplace_back(std::make_unique<Body>(*this, mesh, solids));
 }
 

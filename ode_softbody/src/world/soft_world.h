@@ -41,7 +41,8 @@ public:
     SoftWorld& operator=(const SoftWorld&) = delete;
 
     dWorldID ode_world() const noexcept { return world_; }
-    dSpaceID space() const noexcept { return space_; }
+    dSpaceID space() const noexcept { return space_; } ///< nullptr once it is destroyed
+    void lose_space() noexcept { space_ = nullptr; }
     double time() const noexcept { return time_; } ///< stepped since creation [s]
     const WorldStats& stats() const noexcept { return stats_; }
 
