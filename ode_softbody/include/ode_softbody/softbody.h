@@ -8,7 +8,8 @@
  * Conventions, as in ODE: SI units, world frame, outputs last, opaque ids, functions return 0 or
  * NULL on failure after a sentence through ODE's message handler (dSetMessageHandler). A NULL id is
  * a caller's bug and ends in dDebug; an id whose object has ended is told apart, and destroying it
- * once more does nothing. Bodies come, go and are placed between steps, outside of near callbacks. Not thread-safe per world: call from the thread that steps it.
+ * once more does nothing. Bodies come, go and are placed between steps, outside of near callbacks.
+ * Not thread-safe per world: call from the thread that steps it.
  */
 #ifndef ODE_SOFTBODY_SOFTBODY_H
 #define ODE_SOFTBODY_SOFTBODY_H

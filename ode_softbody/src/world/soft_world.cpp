@@ -28,6 +28,10 @@ constexpr double kStretchLimit = 10;
 // A step with more substeps takes minutes at best: it was meant otherwise.
 constexpr double kMostSubsteps = 1e7;
 
+bool all_stopped(std::span<const std::unique_ptr<Body>> bodies) noexcept {
+    return std::all_of(bodies.begin(), bodies.end(), [](const auto& b) { return b->stopped(); });
+}
+
 } // namespace
 
 SoftWorld::SoftWorld(dWorldID world, dSpaceID space) : world_(world), space_(space) {}
@@ -93,12 +97,15 @@ bool SoftWorld::begin_step(double h) noexcept {
     ++stats_.steps;
     stats_.seconds += seconds_since(start);
     watch_step();
-    exchange_.hand_over();
+    // Else there are no shadows of this step, or those of an attempt that failed.
+    if (!all_stopped(body_))
+        exchange_.hand_over();
     return true;
 }
 
 void SoftWorld::end_step() noexcept {
-    exchange_.write_back();
+    if (!all_stopped(body_))
+        exchange_.write_back();
     for (const auto& body : body_)
         body->moved();
     other_spaces_.clear();
@@ -142,7 +149,7 @@ double SoftWorld::common_substep(double h) const noexcept {
 }
 
 bool SoftWorld::advance(double h) noexcept {
-    if (std::all_of(body_.begin(), body_.end(), [](const auto& b) { return b->stopped(); }))
+    if (all_stopped(body_))
         return true;
     const double first = common_substep(h);
     exchange_.begin_step(body_, h, first);
