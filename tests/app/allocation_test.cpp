@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <dlfcn.h>
+
 #include <atomic>
 #include <cstdlib>
 #include <new>
@@ -62,6 +64,55 @@ TEST(Allocation, StepWithContactAndObserverAllocatesNothing) {
     status.struct_size = sizeof status;
     dSoftBodyGetStatus(body, &status);
     EXPECT_GT(status.contact_points, 0) << "the test must cover contact";
+}
+
+TEST(Allocation, StepOfAnAttachedBodyAllocatesNothing) {
+    ode::test::OdeApp app;
+    WorldHandle soft(dSoftWorldCreate(app.world, app.space));
+    const dSoftSolid solid = dSoftSolidDefault();
+    const MeshHandle mesh(dSoftMeshCreateBox(0.1, 0.1, 0.1, 2, 2, 2));
+    const dSoftBodyID body = dSoftBodyCreate(soft, mesh, &solid);
+    const dBodyID ball = app.add_sphere(0.03, 1, 0.1);
+    const int nodes[] = {0, 1, 2};
+    ASSERT_EQ(dSoftBodyAttachNodes(body, ball, nodes, 3), 3);
+    for (int i = 0; i < 3; ++i)
+        dSoftWorldStep(soft, 1e-4, no_rigid_step);
+    const long before = allocations;
+    for (int i = 0; i < 20; ++i)
+        dSoftWorldStep(soft, 1e-4, no_rigid_step);
+    EXPECT_EQ(allocations - before, 0);
+}
+
+int (*ode_step)(dWorldID, dReal);
+void (*ode_collide)(dSpaceID, void*, dNearCallback*);
+
+// A program that has no soft body, and one that has an empty soft world: what ODE allocates by
+// itself and no more.
+TEST(Allocation, IdlePlugInAllocatesNothing) {
+    ode::test::OdeApp app(-9.81);
+    dCreatePlane(app.space, 0, 0, 1, 0);
+    for (int i = 0; i < 10; ++i)
+        dBodySetPosition(app.add_sphere(0.1, 1, 0.1), i, 0, 0.1);
+    void* ode = dlopen("libode.so.8", RTLD_NOW | RTLD_NOLOAD); // behind the interposed functions
+    ASSERT_NE(ode, nullptr);
+    ode_step = reinterpret_cast<int (*)(dWorldID, dReal)>(dlsym(ode, "dWorldQuickStep"));
+    ode_collide =
+        reinterpret_cast<void (*)(dSpaceID, void*, dNearCallback*)>(dlsym(ode, "dSpaceCollide"));
+    ASSERT_NE(ode_step, &dWorldQuickStep);
+    const auto near = [](void*, dGeomID, dGeomID) {};
+    const auto counted_steps = [&](auto collide, auto step) {
+        const long before = allocations;
+        for (int i = 0; i < 50; ++i) {
+            collide(app.space, nullptr, near);
+            step(app.world, 1e-6);
+        }
+        return allocations - before;
+    };
+    counted_steps(ode_collide, ode_step); // its buffers
+    const long own = counted_steps(ode_collide, ode_step);
+    EXPECT_EQ(counted_steps(&dSpaceCollide, &dWorldQuickStep), own);
+    const WorldHandle soft(dSoftWorldCreate(app.world, app.space));
+    EXPECT_EQ(counted_steps(&dSpaceCollide, &dWorldQuickStep), own);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 # One step of the package test:
-# cmake -D step=install|cmake|pkgconfig|preload -D build=... -D source=... -D work=... -D libdir=...
+# cmake -D step=install|cmake|pkgconfig|preload|late -D build=... -D source=... -D work=... -D libdir=...
 #       -D cc=... -D generator=... -P consume.cmake
 cmake_minimum_required(VERSION 3.25)
 set(prefix ${work}/moved)
@@ -79,11 +79,21 @@ elseif(step STREQUAL "pkgconfig")
     readme_block(c ${work}/pkgconfig/clang.c)
     run(${work}/pkgconfig ${compile} clang.c -o clang ${flags})
     must_sound(${work}/pkgconfig ./clang)
-    run(${work}/pkgconfig ${compile} ${source}/tests/package/hook.c -o hook ${flags})
-    run(${work}/pkgconfig ./hook)
+    run(${work}/pkgconfig ${compile} ${source}/tests/package/hook.c -o hook ${flags} -ldl -lm)
+    run(${work}/pkgconfig ./hook interposed)
 elseif(step STREQUAL "preload")
     # ODE comes first on the link line, so its own dWorldStep would win.
-    run(${work}/preload ${compile} ${source}/tests/package/hook.c -o hook -I${prefix}/include -lode
-        -L${libraries} -lode_softbody -Wl,-rpath,${libraries})
-    run(${work}/preload ${CMAKE_COMMAND} -E env LD_PRELOAD=${libraries}/libode_softbody.so ./hook)
+    run(${work}/preload ${compile} ${source}/tests/package/hook.c -o hook -I${prefix}/include
+        -lode -Wl,--no-as-needed -L${libraries} -lode_softbody -Wl,-rpath,${libraries} -ldl -lm)
+    run(${work}/preload ${CMAKE_COMMAND} -E env LD_PRELOAD=${libraries}/libode_softbody.so
+        ./hook interposed)
+    run(${work}/preload ./hook threading) # the wrong order works, too
+elseif(step STREQUAL "late")
+    # The program knows ODE alone; the library is opened while the world runs.
+    foreach(binding lazy now)
+        run(${work}/late ${compile} ${source}/tests/package/hook.c -o hook_${binding}
+            -I${prefix}/include -Wl,-z,${binding} -lode -ldl -lm)
+        run(${work}/late ./hook_${binding} threading ${libraries}/libode_softbody.so)
+        run(${work}/late ./hook_${binding} threading_global ${libraries}/libode_softbody.so)
+    endforeach()
 endif()

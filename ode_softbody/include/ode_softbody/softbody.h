@@ -7,7 +7,9 @@
  *
  * Conventions, as in ODE: SI units, world frame, outputs last, opaque ids, functions return 0 or
  * NULL on failure after a sentence through ODE's message handler (dSetMessageHandler). A NULL id is
- * a caller's bug and ends in dDebug. Not thread-safe per world: call from the thread that steps it.
+ * a caller's bug and ends in dDebug; an id whose object has ended is told apart, and destroying it
+ * once more does nothing. Bodies come, go and are placed between steps, outside of near callbacks.
+ * Not thread-safe per world: call from the thread that steps it.
  */
 #ifndef ODE_SOFTBODY_SOFTBODY_H
 #define ODE_SOFTBODY_SOFTBODY_H
@@ -30,7 +32,9 @@ typedef enum dSoftHook {
     dSoftHookNone,       /**< it doesn't: call dSoftWorldStep() */
     dSoftHookInterposed, /**< dWorldStep and dWorldQuickStep are ours: linked before ODE, preloaded
                           */
-    dSoftHookThreading   /**< a wrapped threading implementation of the world announces the step */
+    dSoftHookThreading   /**< the library came too late for that; a threading implementation before
+                              the world's own announces the step, until the application sets
+                              another. A sleeping rigid body hit then wakes a step late */
 } dSoftHook;
 
 /** A world of soft bodies living in an ODE world and colliding in one of its spaces.
@@ -313,6 +317,16 @@ DSOFT_API int dSoftBodyPinNodes(dSoftBodyID body, const int* nodes, int count);
 /** Frees all held nodes. */
 DSOFT_API void dSoftBodyUnpin(dSoftBodyID body);
 
+/** Nails nodes to a rigid body where they are now: they keep their places in its frame, it feels
+ * their inertia and forces, and the two don't collide with each other. Of a promoted mesh the
+ * middle of each edge between such nodes goes along. Choose the order and material model before.
+ * Ends with dSoftBodyDetachNodes(), or with the rigid body, after a message.
+ * @param rigid  NULL: the world, as dSoftBodyPinNodes().
+ * @return number of nodes nailed to this rigid body; 0 on failure. */
+DSOFT_API int dSoftBodyAttachNodes(dSoftBodyID body, dBodyID rigid, const int* nodes, int count);
+/** Frees all nodes nailed to a rigid body, or to the world (NULL). @return how many. */
+DSOFT_API int dSoftBodyDetachNodes(dSoftBodyID body, dBodyID rigid);
+
 /** Force on a node [N] during the next step, added to what was added before. */
 DSOFT_API int dSoftBodyAddForceAtNode(dSoftBodyID body, int node, dReal fx, dReal fy, dReal fz);
 
@@ -325,6 +339,16 @@ typedef struct dSoftContact {
 } dSoftContact;
 DSOFT_API dSoftContact dSoftContactDefault(void);
 DSOFT_API int dSoftBodySetContact(dSoftBodyID body, const dSoftContact* contact);
+
+/** Asked once a step for each pair of a soft body's geom and a rigid geom that come near each
+ * other, after ODE has applied category bits, collide bits and dGeomDisable(). Must not change the
+ * world.
+ * @param contact  in: the soft body's own; out: how these two meet in this step, in N, m and s.
+ * @return 0: they pass through each other in this step. */
+typedef int dSoftContactCallback(void* data, dGeomID soft, dGeomID rigid, dSoftContact* contact);
+/** Lets the application choose the contact of every pair; NULL: the soft bodies' own again. */
+DSOFT_API int dSoftWorldSetContactCallback(dSoftWorldID world, dSoftContactCallback* callback,
+                                           void* data);
 
 /** Positions and velocities of all nodes in the mesh's order; borrowed until the next step or
  * change of order.
@@ -368,7 +392,8 @@ DSOFT_API int dSoftBodyGetStatus(dSoftBodyID body, dSoftStatus* status);
  * @return how many were written. */
 DSOFT_API int dSoftBodyGetModes(dSoftBodyID body, int count, dReal* frequencies);
 
-/** The geom that stands for the body in its space. Do not destroy it. */
+/** The geom that stands for the body in its space. Do not destroy it. Under dSoftHookInterposed
+ * dSpaceGetNumGeoms() and dSpaceGetGeom() pass over it. */
 DSOFT_API dGeomID dSoftBodyGetGeom(dSoftBodyID body);
 /** The body behind a geom, NULL if there is none. */
 DSOFT_API dSoftBodyID dSoftGeomGetSoftBody(dGeomID geom);

@@ -1,4 +1,5 @@
 #include "api/boundary.h"
+#include "api/editing.h"
 #include "api/handles.h"
 #include "api/solid.h"
 
@@ -9,9 +10,9 @@ using namespace ode::soft;
 
 namespace {
 
-int set_form(dSoftBodyID id, const char* function, BodyForm form) noexcept {
+int set_form(Body& body, const char* function, BodyForm form) noexcept {
     return guarded(function, 0, [&] {
-        from_id(id).set_form(form);
+        body.set_form(form);
         return 1;
     });
 }
@@ -20,11 +21,13 @@ int set_form(dSoftBodyID id, const char* function, BodyForm form) noexcept {
 
 dSoftBodyID dSoftBodyCreateGroups(dSoftWorldID world, dSoftMeshID mesh, const dSoftSolid* solids,
                                   int count) {
-    require_id(world, __func__);
-    require_id(mesh, __func__);
     require_id(solids, __func__);
+    SoftWorld* home = live(world, __func__);
+    const dxSoftMesh* shape = live(mesh, __func__);
+    if (!home || !shape || !may_edit(*home, __func__))
+        return nullptr;
     return guarded(__func__, dSoftBodyID{}, [&] {
-        const std::size_t groups = std::max<std::size_t>(1, mesh->mesh.group_name.size());
+        const std::size_t groups = std::max<std::size_t>(1, shape->mesh.group_name.size());
         if (count != 1 && (count < 1 || static_cast<std::size_t>(count) != groups))
             throw InputError(format("%d solids for a mesh of %zu groups; give one a group, or one "
                                     "for all",
@@ -34,61 +37,69 @@ dSoftBodyID dSoftBodyCreateGroups(dSoftWorldID world, dSoftMeshID mesh, const dS
         const auto* at = reinterpret_cast<const char*>(solids);
         for (int i = 0; i < count; ++i, at += solids->struct_size)
             all.push_back(from_c(*reinterpret_cast<const dSoftSolid*>(at)));
-        return to_id(from_id(world).create_body(mesh->mesh, all));
+        return to_id(home->create_body(shape->mesh, all));
     });
 }
 
 int dSoftBodySetOrder(dSoftBodyID id, int order) {
-    require_id(id, __func__);
-    BodyForm form = from_id(id).form();
+    Body* body = live(id, __func__);
+    if (!body || !may_edit(body->world(), __func__))
+        return 0;
+    BodyForm form = body->form();
     form.order = order;
-    return set_form(id, __func__, std::move(form));
+    return set_form(*body, __func__, std::move(form));
 }
 
 int dSoftBodyGetOrder(dSoftBodyID id) {
-    require_id(id, __func__);
-    return from_id(id).form().order;
+    const Body* body = live(id, __func__);
+    return body ? body->form().order : 0;
 }
 
 int dSoftBodySetMaterialModel(dSoftBodyID id, const char* name) {
-    require_id(id, __func__);
     require_id(name, __func__);
-    BodyForm form = from_id(id).form();
+    Body* body = live(id, __func__);
+    if (!body || !may_edit(body->world(), __func__))
+        return 0;
+    BodyForm form = body->form();
     form.model = name;
-    return set_form(id, __func__, std::move(form));
+    return set_form(*body, __func__, std::move(form));
 }
 
 const char* dSoftBodyGetMaterialModel(dSoftBodyID id) {
-    require_id(id, __func__);
-    return from_id(id).form().model.c_str();
+    const Body* body = live(id, __func__);
+    return body ? body->form().model.c_str() : nullptr;
 }
 
 int dSoftBodySetIntegrator(dSoftBodyID id, const char* name) {
-    require_id(id, __func__);
     require_id(name, __func__);
-    BodyForm form = from_id(id).form();
-    form.integrator = name;
-    if (!set_form(id, __func__, std::move(form)))
+    Body* body = live(id, __func__);
+    if (!body)
         return 0;
-    if (from_id(id).critical_step() == 0)
+    BodyForm form = body->form();
+    form.integrator = name;
+    if (!set_form(*body, __func__, std::move(form)))
+        return 0;
+    if (body->critical_step() == 0)
         report(format("dSoftBodySetIntegrator: %s lets undamped vibrations grow at any substep; it "
                       "is here to be compared with, and the body will be stopped when it has "
                       "blown up",
-                      dSoftBodyGetIntegrator(id)));
+                      body->form().integrator.c_str()));
     return 1;
 }
 
 const char* dSoftBodyGetIntegrator(dSoftBodyID id) {
-    require_id(id, __func__);
-    return from_id(id).form().integrator.c_str();
+    const Body* body = live(id, __func__);
+    return body ? body->form().integrator.c_str() : nullptr;
 }
 
 int dSoftBodySetCurved(dSoftBodyID id, int curved, int* moved) {
-    require_id(id, __func__);
+    Body* body = live(id, __func__);
+    if (!body || !may_edit(body->world(), __func__))
+        return 0;
     return guarded(__func__, 0, [&] {
-        BodyForm form = from_id(id).form();
+        BodyForm form = body->form();
         form.curved = curved != 0;
-        const CurveReport result = from_id(id).set_form(form);
+        const CurveReport result = body->set_form(form);
         if (moved)
             *moved = static_cast<int>(result.moved);
         if (result.doubtful > 0)

@@ -16,7 +16,7 @@ namespace {
 
 template <class Make>
 dSoftMeshID make_mesh(const char* function, Make&& make) noexcept {
-    return guarded(function, dSoftMeshID{}, [&] { return new dxSoftMesh{make()}; });
+    return guarded(function, dSoftMeshID{}, [&] { return to_id(*new dxSoftMesh{make()}); });
 }
 
 int doubtful_edges(const TetMesh& mesh) {
@@ -80,16 +80,18 @@ dSoftMeshID dSoftMeshCreateSphere(dReal radius, int refinement) {
     return make_mesh(__func__, [&] { return make_sphere(radius, refinement); });
 }
 
-void dSoftMeshDestroy(dSoftMeshID mesh) { delete mesh; }
+void dSoftMeshDestroy(dSoftMeshID mesh) { delete LiveId<dxSoftMesh>::find(mesh); }
 
 int dSoftMeshGetQuality(dSoftMeshID id, dSoftMeshQuality* out) {
-    require_id(id, __func__);
+    dxSoftMesh* mesh = live(id, __func__);
+    if (!mesh)
+        return 0;
     return guarded(__func__, 0, [&] {
-        const MeshQuality q = measure_quality(id->mesh);
+        const MeshQuality q = measure_quality(mesh->mesh);
         dSoftMeshQuality all{};
-        all.nodes = static_cast<int>(id->mesh.node.size());
-        all.elements = static_cast<int>(id->mesh.element_count());
-        all.surface_triangles = static_cast<int>(extract_surface(id->mesh).triangle.size());
+        all.nodes = static_cast<int>(mesh->mesh.node.size());
+        all.elements = static_cast<int>(mesh->mesh.element_count());
+        all.surface_triangles = static_cast<int>(extract_surface(mesh->mesh).triangle.size());
         all.parts = static_cast<int>(q.parts);
         all.worst = static_cast<int>(q.worst);
         all.min_quality = q.min_quality;
@@ -100,50 +102,62 @@ int dSoftMeshGetQuality(dSoftMeshID id, dSoftMeshQuality* out) {
             all.bounds[2 * axis] = q.low[axis];
             all.bounds[2 * axis + 1] = q.high[axis];
         }
-        all.doubtful_edges = doubtful_edges(id->mesh);
+        all.doubtful_edges = doubtful_edges(mesh->mesh);
         return copy_out("dSoftMeshGetQuality", all, out);
     });
 }
 
 int dSoftMeshScale(dSoftMeshID id, dReal factor) {
-    require_id(id, __func__);
+    dxSoftMesh* mesh = live(id, __func__);
+    if (!mesh)
+        return 0;
     return guarded(__func__, 0, [&] {
         if (!(factor > 0) || !std::isfinite(factor))
             throw InputError(format("the factor is %g: it must be finite and positive", factor));
-        for (Vec3& x : id->mesh.node)
+        for (Vec3& x : mesh->mesh.node)
             x *= factor;
         return 1;
     });
 }
 
 int dSoftMeshGetOrder(dSoftMeshID id) {
-    require_id(id, __func__);
-    return id->mesh.order;
+    dxSoftMesh* mesh = live(id, __func__);
+    if (!mesh)
+        return 0;
+    return mesh->mesh.order;
 }
 
 int dSoftMeshGetNodes(dSoftMeshID id, const dReal** first) {
-    require_id(id, __func__);
+    dxSoftMesh* mesh = live(id, __func__);
+    if (!mesh)
+        return 0;
     static_assert(sizeof(Vec3) == 3 * sizeof(dReal));
     if (first)
-        *first = id->mesh.node.empty() ? nullptr : id->mesh.node.front().data();
-    return static_cast<int>(id->mesh.node.size());
+        *first = mesh->mesh.node.empty() ? nullptr : mesh->mesh.node.front().data();
+    return static_cast<int>(mesh->mesh.node.size());
 }
 
 int dSoftMeshGetElements(dSoftMeshID id, const int** first) {
-    require_id(id, __func__);
+    dxSoftMesh* mesh = live(id, __func__);
+    if (!mesh)
+        return 0;
     if (first)
-        *first = id->mesh.element.data();
-    return static_cast<int>(id->mesh.element_count());
+        *first = mesh->mesh.element.data();
+    return static_cast<int>(mesh->mesh.element_count());
 }
 
 int dSoftMeshGetGroupCount(dSoftMeshID id) {
-    require_id(id, __func__);
-    return static_cast<int>(id->mesh.group_name.size());
+    dxSoftMesh* mesh = live(id, __func__);
+    if (!mesh)
+        return 0;
+    return static_cast<int>(mesh->mesh.group_name.size());
 }
 
 const char* dSoftMeshGetGroupName(dSoftMeshID id, int i) {
-    require_id(id, __func__);
-    const auto& names = id->mesh.group_name;
+    dxSoftMesh* mesh = live(id, __func__);
+    if (!mesh)
+        return nullptr;
+    const auto& names = mesh->mesh.group_name;
     return i >= 0 && static_cast<std::size_t>(i) < names.size()
                ? names[static_cast<std::size_t>(i)].c_str()
                : nullptr;

@@ -13,10 +13,15 @@
 struct dxSoftModes {
     ode::soft::TolerantModes result;
     int nodes = 0, elements = 0; ///< of the mesh as given
+    ode::soft::LiveId<dxSoftModes> id{*this};
 };
 
 namespace ode::soft {
 namespace {
+
+const dxSoftModes* live(dSoftModesID id, const char* function) noexcept {
+    return live_as<dxSoftModes>(id, function, "set of modes");
+}
 
 std::size_t positive(int value, const char* name) {
     if (value < 0)
@@ -94,8 +99,10 @@ dSoftModesOptions dSoftModesOptionsDefault(void) {
 dSoftModesID dSoftModesCompute(dSoftMeshID id, const dSoftSolid* solids, int solid_count,
                                const int* clamped, int clamped_count,
                                const dSoftModesOptions* options) {
-    require_id(id, __func__);
     require_id(solids, __func__);
+    const dxSoftMesh* mesh = live(id, __func__);
+    if (!mesh)
+        return nullptr;
     return guarded(__func__, dSoftModesID{}, [&]() -> dSoftModesID {
         dSoftModesOptions c = dSoftModesOptionsDefault();
         if (options)
@@ -105,40 +112,48 @@ dSoftModesID dSoftModesCompute(dSoftMeshID id, const dSoftSolid* solids, int sol
             modal.clamped.assign(clamped, clamped + positive(clamped_count, "clamped_count"));
         modal.clamp = clamped != nullptr;
         const ToleranceOptions tolerance = tolerance_options(c);
-        const std::vector<Solid> all = solids_of(id->mesh, solids, solid_count);
+        const std::vector<Solid> all = solids_of(mesh->mesh, solids, solid_count);
         try {
             auto modes = std::make_unique<dxSoftModes>();
-            modes->result = modes_to_tolerance(id->mesh, all, modal, tolerance);
-            modes->nodes = static_cast<int>(id->mesh.node.size());
-            modes->elements = static_cast<int>(id->mesh.element_count());
-            return modes.release();
+            modes->result = modes_to_tolerance(mesh->mesh, all, modal, tolerance);
+            modes->nodes = static_cast<int>(mesh->mesh.node.size());
+            modes->elements = static_cast<int>(mesh->mesh.element_count());
+            return static_cast<dSoftModesID>(modes.release()->id.value());
         } catch (const Cancelled&) {
             throw InputError("cancelled by the progress callback");
         }
     });
 }
 
-void dSoftModesDestroy(dSoftModesID modes) { delete modes; }
+void dSoftModesDestroy(dSoftModesID id) { delete LiveId<dxSoftModes>::find(id); }
 
-int dSoftModesGetCount(dSoftModesID modes) {
-    require_id(modes, __func__);
+int dSoftModesGetCount(dSoftModesID id) {
+    const dxSoftModes* modes = live(id, __func__);
+    if (!modes)
+        return 0;
     return static_cast<int>(modes->result.model.mode_count());
 }
 
-int dSoftModesGetFrequencies(dSoftModesID modes, const dReal** first) {
-    require_id(modes, __func__);
+int dSoftModesGetFrequencies(dSoftModesID id, const dReal** first) {
+    const dxSoftModes* modes = live(id, __func__);
+    if (!modes)
+        return 0;
     return give(modes->result.model.frequency, first);
 }
 
-int dSoftModesGetErrorCents(dSoftModesID modes, const dReal** first) {
-    require_id(modes, __func__);
+int dSoftModesGetErrorCents(dSoftModesID id, const dReal** first) {
+    const dxSoftModes* modes = live(id, __func__);
+    if (!modes)
+        return 0;
     return give(modes->result.model.error_cents, first);
 }
 
-int dSoftModesGetShape(dSoftModesID modes, int mode, const dReal** first, int* stride) {
-    require_id(modes, __func__);
-    if (mode < 0 || mode >= dSoftModesGetCount(modes)) {
-        report(format("%s: there is no mode %d of %d", __func__, mode, dSoftModesGetCount(modes)));
+int dSoftModesGetShape(dSoftModesID id, int mode, const dReal** first, int* stride) {
+    const dxSoftModes* modes = live(id, __func__);
+    if (!modes)
+        return 0;
+    if (mode < 0 || mode >= dSoftModesGetCount(id)) {
+        report(format("%s: there is no mode %d of %d", __func__, mode, dSoftModesGetCount(id)));
         return 0;
     }
     *first = modes->result.model.shape_of(static_cast<std::size_t>(mode)).data();
@@ -146,8 +161,10 @@ int dSoftModesGetShape(dSoftModesID modes, int mode, const dReal** first, int* s
     return modes->nodes;
 }
 
-int dSoftModesGetInfo(dSoftModesID modes, dSoftModesInfo* out) {
-    require_id(modes, __func__);
+int dSoftModesGetInfo(dSoftModesID id, dSoftModesInfo* out) {
+    const dxSoftModes* modes = live(id, __func__);
+    if (!modes)
+        return 0;
     require_id(out, __func__);
     const TolerantModes& r = modes->result;
     dSoftModesInfo all{};

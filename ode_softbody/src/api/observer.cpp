@@ -55,12 +55,14 @@ private:
 } // namespace
 
 int dSoftWorldAddObserver(dSoftWorldID world, const dSoftObserver* observer) {
-    require_id(world, __func__);
     require_id(observer, __func__);
+    SoftWorld* watched = live(world, __func__);
+    if (!watched)
+        return 0;
     return guarded(__func__, 0, [&] {
         dSoftObserver callbacks{};
         copy_in(*observer, "{sizeof(dSoftObserver), ...}", &callbacks);
-        from_id(world).add_observer(std::make_unique<CallbackObserver>(callbacks));
+        watched->add_observer(std::make_unique<CallbackObserver>(callbacks));
         return 1;
     });
 }
@@ -74,8 +76,10 @@ int dSoftWorldAddSubstepObserver(dSoftWorldID world, dSoftSubstepCallback* callb
 }
 
 int dSoftWorldRemoveObserver(dSoftWorldID world, void* data) {
-    require_id(world, __func__);
-    return static_cast<int>(from_id(world).remove_observers([data](const Observer& observer) {
+    SoftWorld* watched = live(world, __func__);
+    if (!watched)
+        return 0;
+    return static_cast<int>(watched->remove_observers([data](const Observer& observer) {
         const auto* callbacks = dynamic_cast<const CallbackObserver*>(&observer);
         return callbacks && callbacks->data() == data;
     }));

@@ -1,4 +1,5 @@
 #include "api/boundary.h"
+#include "api/editing.h"
 #include "api/handles.h"
 #include "api/versioned.h"
 #include "hook/step_hook.h"
@@ -10,35 +11,49 @@ dSoftWorldID dSoftWorldCreate(dWorldID world, dSpaceID space) {
     require_id(world, __func__);
     require_id(space, __func__);
     return guarded(__func__, dSoftWorldID{}, [&] {
+        if (SoftWorld* old = find_world(world)) // of an ODE world that lay here before
+            end_if_orphaned(*old);
         SoftWorld& made = create_world(world, space);
+        attach_hook(made);
         return to_id(made);
     });
 }
 
-void dSoftWorldDestroy(dSoftWorldID world) {
-    if (world)
-        destroy_world(from_id(world));
+void dSoftWorldDestroy(dSoftWorldID id) {
+    SoftWorld* world = LiveId<SoftWorld>::find(id); // one that ended with ODE's is no mistake
+    if (world && may_edit(*world, __func__))
+        destroy_world(*world);
 }
 
-int dSoftWorldStep(dSoftWorldID world, dReal h, int (*step)(dWorldID, dReal)) {
-    require_id(world, __func__);
+int dSoftWorldStep(dSoftWorldID id, dReal h, int (*step)(dWorldID, dReal)) {
     require_id(reinterpret_cast<const void*>(step), __func__);
-    return from_id(world).step(h, step);
+    SoftWorld* world = live(id, __func__);
+    return world ? world->step(h, step) : 0;
 }
 
-dSoftHook dSoftWorldGetHook(dSoftWorldID world) {
-    require_id(world, __func__);
-    return steps_are_interposed() ? dSoftHookInterposed : dSoftHookNone;
+dSoftHook dSoftWorldGetHook(dSoftWorldID id) {
+    const SoftWorld* world = live(id, __func__);
+    switch (world ? hook_of(*world) : Hook::none) {
+    case Hook::interposed:
+        return dSoftHookInterposed;
+    case Hook::threading:
+        return dSoftHookThreading;
+    case Hook::none:
+        break;
+    }
+    return dSoftHookNone;
 }
 
-dReal dSoftWorldGetTime(dSoftWorldID world) {
-    require_id(world, __func__);
-    return from_id(world).time();
+dReal dSoftWorldGetTime(dSoftWorldID id) {
+    const SoftWorld* world = live(id, __func__);
+    return world ? world->time() : 0;
 }
 
 int dSoftWorldGetStats(dSoftWorldID id, dSoftWorldStats* out) {
-    require_id(id, __func__);
-    const WorldStats& stats = from_id(id).stats();
+    const SoftWorld* world = live(id, __func__);
+    if (!world)
+        return 0;
+    const WorldStats& stats = world->stats();
     dSoftWorldStats all{};
     all.steps = stats.steps;
     all.substeps = stats.substeps;

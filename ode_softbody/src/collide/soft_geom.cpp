@@ -115,7 +115,8 @@ dGeomID create_soft_geom(dSpaceID space, SoftGeomClient& client) {
         const std::lock_guard guard(lock);
         live_geoms().push_back(geom);
     }
-    dSpaceAdd(space, geom);
+    if (space)
+        dSpaceAdd(space, geom);
     return geom;
 }
 
@@ -135,13 +136,31 @@ SoftGeomClient* soft_geom_client(dGeomID geom) noexcept {
     return std::find(live.begin(), live.end(), geom) == live.end() ? nullptr : data_of(geom).client;
 }
 
+bool is_soft_geom(dGeomID geom) noexcept {
+    return class_number != 0 && dGeomGetClass(geom) == class_number;
+}
+
+int soft_geoms_in(dSpaceID space) noexcept {
+    if (class_number == 0)
+        return 0;
+    const std::lock_guard guard(lock);
+    return static_cast<int>(std::count_if(live_geoms().begin(), live_geoms().end(),
+                                          [&](dGeomID g) { return dGeomGetSpace(g) == space; }));
+}
+
+dGeomID topmost(dGeomID geom) noexcept {
+    while (const dSpaceID parent = dGeomGetSpace(geom))
+        geom = reinterpret_cast<dGeomID>(parent);
+    return geom;
+}
+
 void collide_now(dGeomID geom) noexcept {
-    dSpaceID top = dGeomGetSpace(geom);
-    if (!top)
-        return;
-    while (const dSpaceID parent = dGeomGetSpace(reinterpret_cast<dGeomID>(top)))
-        top = parent;
-    dSpaceCollide2(geom, reinterpret_cast<dGeomID>(top), nullptr, &ignore_pair);
+    if (const dGeomID top = topmost(geom); top != geom)
+        collide_with(geom, top);
+}
+
+void collide_with(dGeomID geom, dGeomID other) noexcept {
+    dSpaceCollide2(geom, other, nullptr, &ignore_pair);
 }
 
 void forget_soft_class() noexcept { class_number = 0; }

@@ -37,6 +37,7 @@ protected:
 /// Puts a geom for `client` in `space`. All soft bodies share one user class of ODE's four.
 /// The geom is seen by no near callback: its pairs are taken from aabb_test, which then says "no
 /// overlap"; nested spaces are searched from there. Rays alone collide in the ordinary way.
+/// @param space   may be NULL: the geom then only meets what it is collided with by name.
 /// @param client  borrowed until on_destroyed() or destroy_soft_geom().
 /// Ends in ODE's dDebug when the application has taken all four user classes.
 dGeomID create_soft_geom(dSpaceID space, SoftGeomClient& client);
@@ -50,9 +51,21 @@ void mark_moved(dGeomID geom) noexcept;
 /// nullptr for any geom that create_soft_geom() did not make.
 SoftGeomClient* soft_geom_client(dGeomID geom) noexcept;
 
-/// Makes the geom meet everything in the topmost space it lies in, for applications that have not
-/// collided their space since the last step. No near callback is involved.
+/// Whether it is one of ours. @param geom  of any kind; it exists.
+bool is_soft_geom(dGeomID geom) noexcept;
+
+/// How many of ours lie in a space itself, those in spaces within not counted.
+int soft_geoms_in(dSpaceID space) noexcept;
+
+/// The space that holds the geom, over any number of spaces between; the geom itself when it lies
+/// in none.
+dGeomID topmost(dGeomID geom) noexcept;
+
+/// Makes the geom meet everything in the topmost space it lies in. No near callback is involved.
 void collide_now(dGeomID geom) noexcept;
+
+/// Makes the geom meet another geom, or everything in a space.
+void collide_with(dGeomID geom, dGeomID other) noexcept;
 
 /// ODE is being closed: class numbers start afresh. Without this call the next create_soft_geom()
 /// finds out by itself, by probing the geom class that now has the number.

@@ -39,8 +39,10 @@ double rung_above(double stretch) noexcept {
 } // namespace
 
 Body::~Body() {
-    if (geom_)
-        destroy_soft_geom(geom_);
+    if (!geom_)
+        return;
+    forget_space(geom_);
+    destroy_soft_geom(geom_);
 }
 
 Body* Body::behind(dGeomID geom) noexcept { return static_cast<Body*>(soft_geom_client(geom)); }
@@ -98,13 +100,13 @@ void Body::rotate(const Quat& rotation) noexcept {
 
 void Body::set_velocity(const Vec3& velocity) noexcept {
     for (std::size_t i = 0; i < state_.velocity.size(); ++i)
-        state_.velocity[i] = inverse_mass_[i] > 0 ? velocity : Vec3::Zero();
+        state_.velocity[i] = is_pinned(static_cast<int>(i)) ? Vec3::Zero() : velocity;
 }
 
 void Body::add_spin(const Vec3& omega) noexcept {
     const Vec3 center = center_of_mass();
     for (std::size_t i = 0; i < state_.velocity.size(); ++i)
-        if (inverse_mass_[i] > 0)
+        if (!is_pinned(static_cast<int>(i)))
             state_.velocity[i] += omega.cross(state_.position[i] - center);
 }
 
@@ -120,22 +122,60 @@ void Body::hold(int node) noexcept {
 void Body::pin(std::span<const int> nodes) noexcept {
     for (const int node : nodes)
         hold(node);
+    each_middle([&](int a, int b, int middle) {
+        if (is_held(a) && is_held(b))
+            hold(middle);
+    });
+}
+
+template <class Visit>
+void Body::each_middle(Visit visit) const {
     if (mesh_.node.size() == given_nodes_)
         return;
-    const auto held = [&](int node) { return inverse_mass_[static_cast<std::size_t>(node)] == 0; };
     for (std::size_t e = 0; e < mesh_.element_count(); ++e) {
         const auto n = mesh_.nodes_of(e);
         for (std::size_t i = 0; i < 6; ++i)
-            if (held(n[static_cast<std::size_t>(kTetEdge[i][0])]) &&
-                held(n[static_cast<std::size_t>(kTetEdge[i][1])]))
-                hold(n[4 + i]);
+            visit(n[static_cast<std::size_t>(kTetEdge[i][0])],
+                  n[static_cast<std::size_t>(kTetEdge[i][1])], n[4 + i]);
+    }
+}
+
+std::vector<int> Body::nail(std::span<const int> nodes) {
+    std::vector<std::uint8_t> taken(mesh_.node.size());
+    std::vector<int> all;
+    const auto take = [&](int node) {
+        if (is_held(node))
+            return;
+        all.push_back(node);
+        nailed_.push_back(node);
+        inverse_mass_[static_cast<std::size_t>(node)] = 0;
+        taken[static_cast<std::size_t>(node)] = 1;
+    };
+    for (const int node : nodes)
+        take(node);
+    each_middle([&](int a, int b, int middle) {
+        if (taken[static_cast<std::size_t>(a)] && taken[static_cast<std::size_t>(b)])
+            take(middle);
+    });
+    return all;
+}
+
+void Body::release(int node) noexcept {
+    const auto i = static_cast<std::size_t>(node);
+    inverse_mass_[i] = 1 / mass()[i];
+    std::erase(nailed_, node);
+}
+
+void Body::set_nailed_mass(bool own) noexcept {
+    for (const int node : nailed_) {
+        const auto i = static_cast<std::size_t>(node);
+        inverse_mass_[i] = own ? 1 / mass()[i] : 0;
     }
 }
 
 void Body::unpin() noexcept {
-    inverse_mass_.resize(mass().size());
-    std::transform(mass().begin(), mass().end(), inverse_mass_.begin(),
-                   [](double m) { return 1 / m; });
+    for (const int node : pinned_)
+        release(node);
     pinned_.clear();
 }
 
@@ -156,6 +196,8 @@ void Body::fit_velocity(double dt) noexcept {
         return;
     // A velocity half of another substep old would be a kick to every mode, largest for the
     // fastest: changing substeps would pump energy.
+    // Nailed nodes hand on what they get, so that the sum of all changes stays zero.
+    set_nailed_mass(true);
     const NodeInertia inertia{inverse_mass_};
     if (last_dt_ > 0) {
         force_.set_zero();
@@ -163,6 +205,7 @@ void Body::fit_velocity(double dt) noexcept {
     }
     force_.set_zero();
     integrator_->begin(*model_, inertia, dt, state_, force_);
+    set_nailed_mass(false);
     last_dt_ = dt;
 }
 
@@ -240,7 +283,6 @@ void Body::stop() noexcept {
 }
 
 Aabb Body::aabb() noexcept {
-    collided_ = true;
     Aabb box = Aabb::empty();
     for (const int node : surface_.node)
         box.include(state_.position[static_cast<std::size_t>(node)]);
@@ -250,6 +292,12 @@ Aabb Body::aabb() noexcept {
 }
 
 void Body::on_pair(dGeomID other) noexcept {
+    if (!world_.meeting_) { // the application collides its spaces; meet() will look again
+        const dGeomID top = topmost(other);
+        if (top != topmost(geom_))
+            world_.other_spaces_.add(geom_, top);
+        return;
+    }
     if (std::find(pair_.begin(), pair_.end(), other) == pair_.end())
         pair_.push_back(other);
 }
@@ -259,6 +307,7 @@ int Body::on_ray(dGeomID ray, int flags, dContactGeom* contact, int skip) noexce
 }
 
 void Body::on_destroyed() noexcept {
+    forget_space(geom_);
     geom_ = nullptr; // the application's id of the body stays good; it only meets nothing any more
 }
 

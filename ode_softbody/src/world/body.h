@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/live_id.h"
 #include "collide/soft_geom.h"
 #include "couple/node_contact.h"
 #include "integrate/integrator.h"
@@ -8,7 +9,9 @@
 #include "mesh/tet_mesh.h"
 #include "model/elastic_model.h"
 #include "model/solid.h"
+#include "world/rigid_pairs.h"
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <string>
@@ -103,15 +106,31 @@ public:
     std::size_t bearing_points() const noexcept { return bearing_points_; }
 
     void* data = nullptr; ///< the application's
+    void* id() const noexcept { return id_.value(); }
 
 private:
     friend class SoftWorld;
+    friend class Attachments;
     friend class RigidExchange;
 
     /// Takes over a mesh that has the nodes of the body's own first. @throws InputError
     void build(TetMesh mesh, const BodyForm& form);
     void find_critical_step(const IntegratorKind& method);
     void hold(int node) noexcept;
+    bool is_held(int node) const noexcept { ///< pinned or nailed
+        return inverse_mass_[static_cast<std::size_t>(node)] == 0;
+    }
+    bool is_pinned(int node) const noexcept {
+        return std::binary_search(pinned_.begin(), pinned_.end(), node);
+    }
+    /// For each edge of each element that promotion gave a node: visit(end, end, middle).
+    template <class Visit>
+    void each_middle(Visit visit) const;
+    /// Takes free nodes, and the middles of edges between them, out of the body's own motion:
+    /// somebody else moves them until release(). @return which.
+    std::vector<int> nail(std::span<const int> nodes);
+    void release(int node) noexcept;
+    void set_nailed_mass(bool own) noexcept; ///< their own, or infinite as in substeps
 
     Aabb aabb() noexcept override;
     void on_pair(dGeomID other) noexcept override;
@@ -157,6 +176,7 @@ private:
     double max_alpha_;
     std::vector<double> inverse_mass_; ///< [1/kg], 0: held
     std::vector<int> pinned_;
+    std::vector<int> nailed_;
     SurfaceNodes contact_nodes_; ///< area, mass, neighbourhood of each surface node
     ContactLaw contact_law_;
     double total_mass_;
@@ -173,9 +193,10 @@ private:
     int failures_ = 0; ///< attempts at this step that went unstable
     bool stepped_ = false;
     bool stopped_ = false;
-    bool collided_ = false;     ///< the space has looked at the geom since the last step
-    std::vector<dGeomID> pair_; ///< rigid geoms met since the last step
+    std::vector<dGeomID> pair_;         ///< geoms near in this step
+    std::vector<RigidPair> rigid_pair_; ///< those of them that bear contact in this step
     dGeomID geom_ = nullptr;
+    LiveId<Body> id_{*this};
 };
 
 } // namespace ode::soft

@@ -88,6 +88,10 @@ CurveReport Body::set_form(const BodyForm& form) {
     if (stepped_)
         throw InputError("the body has been stepped already; choose its order, material model, "
                          "curvature and integrator before its first step");
+    if (world_.attachments().has(*this))
+        throw InputError(
+            "the body is attached to a rigid one; choose its order, material model, "
+            "curvature and integrator before that");
     if (form.order != 1 && form.order != 2)
         throw InputError(format("there are no elements of order %d; give 1 or 2", form.order));
     if (form.order < given_order_)
@@ -145,7 +149,10 @@ void Body::build(TetMesh mesh, const BodyForm& form) {
     total_mass_ = std::accumulate(mass().begin(), mass().end(), 0.0);
     std::vector<int> pinned = std::move(pinned_);
     std::erase_if(pinned, [&](int node) { return static_cast<std::size_t>(node) >= given_nodes_; });
-    unpin();
+    inverse_mass_.resize(mass().size());
+    std::transform(mass().begin(), mass().end(), inverse_mass_.begin(),
+                   [](double m) { return 1 / m; });
+    pinned_.clear();
     // Unpinned: a bound for whatever is held later.
     find_critical_step(method);
     pin(pinned);

@@ -68,4 +68,13 @@ void forget_world(dWorldID world) noexcept {
     take([&](const SoftWorld& w) { return !world || w.ode_world() == world; });
 }
 
+void lose_space(dGeomID space) noexcept {
+    if (count.load(std::memory_order_acquire) == 0)
+        return;
+    const std::lock_guard guard(lock);
+    for (const auto& world : worlds())
+        if (reinterpret_cast<dGeomID>(world->space()) == space)
+            world->lose_space();
+}
+
 } // namespace ode::soft

@@ -21,4 +21,8 @@ SoftWorld* find_world(dWorldID world) noexcept;
 /// The application has destroyed an ODE world, or closed ODE (nullptr: all of them).
 void forget_world(dWorldID world) noexcept;
 
+/// The application destroys a space (or a geom): soft worlds that make their bodies in it can't any
+/// more. Costs one atomic load while the process has no soft world.
+void lose_space(dGeomID space) noexcept;
+
 } // namespace ode::soft

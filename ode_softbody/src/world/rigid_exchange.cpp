@@ -14,18 +14,17 @@ void RigidExchange::begin_step(std::span<const std::unique_ptr<Body>> bodies, do
     for (const std::unique_ptr<Body>& body : bodies) {
         if (body->stopped())
             continue;
-        for (const dGeomID geom : body->pair_) {
-            const std::optional<RigidShape> shape = capture_shape(geom);
+        for (const RigidPair& pair : body->rigid_pair_) {
+            const std::optional<RigidShape> shape = capture_shape(pair.geom);
             if (!shape)
                 continue;
-            Contact& contact = contact_of(*body, geom);
+            Contact& contact = contact_of(*body, pair.geom);
             contact.current = true;
             contact.shadow = shadow_of(shape->body, h, dt);
             RigidShadow& shadow = shadow_[contact.shadow];
             if (contact.law->bearing())
                 shadow.set_softening(std::min(shadow.softening(), contact.law->softening()));
-            contact.law->begin_step(*shape, body->contact_law(), body->inverse_mass_,
-                                    body->substep());
+            contact.law->begin_step(*shape, pair.law, body->inverse_mass_, body->substep());
         }
     }
     std::erase_if(contact_, [](const Contact& contact) { return !contact.current; });

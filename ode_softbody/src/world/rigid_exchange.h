@@ -32,6 +32,11 @@ public:
     /// A soft body or a rigid geom is going.
     void forget(const Body& body) noexcept;
 
+    /// The shadow of a rigid body in this step; the index is good for the step.
+    std::size_t shadow_of(dBodyID body, double h, double dt);
+    RigidShadow& shadow(std::size_t i) noexcept { return shadow_[i]; }
+    const RigidShadow& shadow(std::size_t i) const noexcept { return shadow_[i]; }
+
 private:
     struct Contact {
         Body* body;
@@ -40,7 +45,6 @@ private:
         bool current = true; ///< met in this step
     };
 
-    std::size_t shadow_of(dBodyID body, double h, double dt);
     Contact& contact_of(Body& body, dGeomID geom);
 
     std::vector<Contact> contact_;

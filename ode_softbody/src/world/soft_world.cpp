@@ -25,35 +25,70 @@ constexpr int kWatchInterval = 10;
 // Principal stretch beyond which no explicit step chosen at rest is stable for any material here.
 constexpr double kStretchLimit = 10;
 
+// A step with more substeps takes minutes at best: it was meant otherwise.
+constexpr double kMostSubsteps = 1e7;
+
+bool all_stopped(std::span<const std::unique_ptr<Body>> bodies) noexcept {
+    return std::all_of(bodies.begin(), bodies.end(), [](const auto& b) { return b->stopped(); });
+}
+
 } // namespace
 
 SoftWorld::SoftWorld(dWorldID world, dSpaceID space) : world_(world), space_(space) {}
 
 SoftWorld::~SoftWorld() {
-    for (const auto& observer : observer_)
-        observer->on_world_end(*this);
+    each_observer([&](Observer& observer) { observer.on_world_end(*this); });
     observer_.clear();
 }
 
 Body& SoftWorld::create_body(const TetMesh& mesh, std::span<const Solid> solids) {
+    if (!space_)
+        throw InputError("the space of the soft world is gone; make a soft world in another one");
     return *body_.emplace_back(std::make_unique<Body>(*this, mesh, solids));
 }
 
 void SoftWorld::destroy_body(Body& body) noexcept {
-    for (const auto& observer : observer_)
-        observer->on_body_end(body);
+    each_observer([&](Observer& observer) { observer.on_body_end(body); });
     exchange_.forget(body);
+    attachments_.forget(body);
     std::erase_if(body_, [&](const auto& b) { return b.get() == &body; });
 }
 
 int SoftWorld::step(double h, RealStep real_step) noexcept {
     if (stepping_)
         return real_step(world_, h);
+    if (!begin_step(h))
+        return 0;
+    const int result = real_step(world_, h);
+    end_step();
+    return result;
+}
+
+bool SoftWorld::accepts(double h) const noexcept {
     if (!(h > 0 && std::isfinite(h))) {
         report(format("the step of %g s is refused; give a finite one above 0", h));
-        return 0;
+        return false;
     }
+    const double substeps = h / common_substep(h);
+    if (substeps > kMostSubsteps) {
+        report(format("the step of %g s is refused, it would take %.3g substeps of %.3g s; make "
+                      "shorter steps",
+                      h, substeps, h / substeps));
+        return false;
+    }
+    return true;
+}
+
+bool SoftWorld::begin_step(double h) noexcept {
+    if (stepping_ || !accepts(h))
+        return false;
     stepping_ = true;
+    if (body_.empty() && observer_.empty()) { // not even the time is asked
+        last_step_ = h;
+        time_ += h;
+        ++stats_.steps;
+        return true;
+    }
     const auto start = Clock::now();
     meet(h);
     while (!advance(h)) {
@@ -62,26 +97,47 @@ int SoftWorld::step(double h, RealStep real_step) noexcept {
     ++stats_.steps;
     stats_.seconds += seconds_since(start);
     watch_step();
+    // Else there are no shadows of this step, or those of an attempt that failed.
+    if (!all_stopped(body_))
+        exchange_.hand_over();
+    return true;
+}
 
-    exchange_.hand_over();
-    const int result = real_step(world_, h);
-    exchange_.write_back();
-
-    last_step_ = h;
-    for (const auto& body : body_) {
-        body->pair_.clear();
-        body->collided_ = false;
+void SoftWorld::end_step() noexcept {
+    if (!all_stopped(body_))
+        exchange_.write_back();
+    for (const auto& body : body_)
         body->moved();
-    }
+    other_spaces_.clear();
     stepping_ = false;
-    return result;
+    drop_past_observers();
+}
+
+void SoftWorld::drop_past_observers() noexcept {
+    if (busy() || past_observer_.empty())
+        return;
+    std::erase(observer_, nullptr);
+    past_observer_.clear();
 }
 
 void SoftWorld::meet(double h) noexcept {
+    attachments_.check();
+    meeting_ = true;
+    for (const auto& body : body_) {
+        body->pair_.clear();
+        if (!body->geom() || body->stopped())
+            continue;
+        if (h != last_step_)
+            body->moved(); // its box covers the way of a step
+    }
     last_step_ = h;
     for (const auto& body : body_)
-        if (!body->collided_ && body->geom() && !body->stopped())
+        if (body->geom() && !body->stopped() && dGeomIsEnabled(body->geom()))
             collide_now(body->geom());
+    other_spaces_.collide();
+    meeting_ = false;
+    for (const auto& body : body_)
+        choose_pairs(*body, body->pair_, contact_chooser_, said_, body->rigid_pair_);
 }
 
 double SoftWorld::common_substep(double h) const noexcept {
@@ -93,9 +149,11 @@ double SoftWorld::common_substep(double h) const noexcept {
 }
 
 bool SoftWorld::advance(double h) noexcept {
-    if (std::all_of(body_.begin(), body_.end(), [](const auto& b) { return b->stopped(); }))
+    if (all_stopped(body_))
         return true;
-    exchange_.begin_step(body_, h, common_substep(h));
+    const double first = common_substep(h);
+    exchange_.begin_step(body_, h, first);
+    attachments_.begin_step(exchange_, h, first);
     for (const auto& body : body_)
         body->begin_step();
     double done = 0;
@@ -120,7 +178,7 @@ long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
     dWorldGetGravity(world_, g);
     const Vec3 gravity(g[0], g[1], g[2]);
     const bool observed = std::any_of(observer_.begin(), observer_.end(),
-                                      [](const auto& o) { return o->wants_substeps(); });
+                                      [](const auto& o) { return o && o->wants_substeps(); });
     for (const auto& body : body_)
         body->take_load(gravity);
     for (long i = 1; i <= substeps; ++i) {
@@ -130,12 +188,14 @@ long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
         const ContactTally tally = exchange_.add_forces(dt);
         stats_.contact_tests += tally.tests;
         stats_.contact_points += tally.bearing;
+        attachments_.bind(exchange_, dt);
         exchange_.advance(dt);
         for (const auto& body : body_)
             if (!body->stopped()) {
                 body->advance(dt);
                 stats_.element_steps += body->mesh().element_count();
             }
+        attachments_.follow(exchange_);
         ++stats_.substeps;
         const bool look = i % kWatchInterval == 0 || i == substeps;
         if (look && !all_sound())
@@ -175,19 +235,19 @@ void SoftWorld::show_substep(double time, double dt) noexcept {
     for (const auto& body : body_) {
         if (body->stopped())
             continue;
-        for (const auto& observer : observer_)
-            if (observer->wants_substeps()) {
-                observer->on_substep({*body, time, dt});
-                ++stats_.observer_calls;
-            }
+        each_observer([&](Observer& observer) {
+            if (!observer.wants_substeps())
+                return;
+            observer.on_substep({*body, time, dt});
+            ++stats_.observer_calls;
+        });
     }
     stats_.observer_seconds += seconds_since(start);
 }
 
 void SoftWorld::watch_step() noexcept {
     const auto start = Clock::now();
-    for (const auto& observer : observer_)
-        observer->on_step(*this, time_);
+    each_observer([&](Observer& observer) { observer.on_step(*this, time_); });
     const double spent = seconds_since(start);
     stats_.observer_seconds += spent;
     stats_.seconds += spent;

@@ -1,11 +1,15 @@
 #pragma once
 
+#include "base/live_id.h"
 #include "base/types.h"
 #include "mesh/tet_mesh.h"
 #include "model/solid.h"
+#include "world/attachments.h"
 #include "world/body.h"
 #include "world/observer.h"
+#include "world/other_spaces.h"
 #include "world/rigid_exchange.h"
+#include "world/rigid_pairs.h"
 
 #include <memory>
 #include <span>
@@ -37,7 +41,8 @@ public:
     SoftWorld& operator=(const SoftWorld&) = delete;
 
     dWorldID ode_world() const noexcept { return world_; }
-    dSpaceID space() const noexcept { return space_; }
+    dSpaceID space() const noexcept { return space_; } ///< nullptr once it is destroyed
+    void lose_space() noexcept { space_ = nullptr; }
     double time() const noexcept { return time_; } ///< stepped since creation [s]
     const WorldStats& stats() const noexcept { return stats_; }
 
@@ -49,10 +54,17 @@ public:
     void add_observer(std::unique_ptr<Observer> observer) {
         observer_.push_back(std::move(observer));
     }
-    /// Ends the observers that `chosen` accepts. @return how many.
+    /// No observer that `chosen` accepts is called any more. @return how many.
     template <class Predicate>
     std::size_t remove_observers(Predicate chosen) {
-        return std::erase_if(observer_, [&](const auto& observer) { return chosen(*observer); });
+        std::size_t removed = 0;
+        for (auto& observer : observer_)
+            if (observer && chosen(*observer)) {
+                past_observer_.push_back(std::move(observer));
+                ++removed;
+            }
+        drop_past_observers();
+        return removed;
     }
 
     /// One step of everything: soft bodies substep by substep against the rigid bodies they touch,
@@ -60,10 +72,28 @@ public:
     /// them. Re-entered from within (a step inside a callback): passes through to ODE.
     int step(double h, RealStep real_step) noexcept;
 
+    /// The halves of step(), for who is told of a step while it is under way: before bodies move
+    /// and after. @return false: refused, or within a step already; then leave out end_step().
+    bool begin_step(double h) noexcept;
+    void end_step() noexcept;
+    bool stepping() const noexcept { return stepping_; }
+    /// Observers may be on the stack: bodies must stay.
+    bool busy() const noexcept { return stepping_ || calling_; }
+    void* id() const noexcept { return id_.value(); }
+
+    /// Asked for every pair from the next step on; empty: the soft bodies' own laws hold.
+    void set_contact_chooser(ContactChooser chooser) { contact_chooser_ = std::move(chooser); }
+
+    Attachments& attachments() noexcept { return attachments_; }
+
     double last_step() const noexcept { return last_step_; } ///< [s]; 0 before the first
 
 private:
-    /// Collects pairs for bodies whose space nobody has collided since the last step.
+    friend class Body;
+
+    bool accepts(double h) const noexcept;
+    /// Collects what is near each body, in its own space and in those that the application has
+    /// collided it with, and settles which pairs bear contact, and how.
     void meet(double h) noexcept;
     /// The substep that suits all bodies, dividing h [s].
     double common_substep(double h) const noexcept;
@@ -74,6 +104,18 @@ private:
     /// none when one went unstable.
     long run_substeps(double start, double dt, long substeps) noexcept;
     bool all_sound() noexcept;
+    /// Observers may be added and removed by one of them meanwhile.
+    template <class Call>
+    void each_observer(Call call) {
+        const bool outer = calling_;
+        calling_ = true;
+        for (std::size_t i = 0; i < observer_.size(); ++i)
+            if (observer_[i])
+                call(*observer_[i]);
+        calling_ = outer;
+        drop_past_observers();
+    }
+    void drop_past_observers() noexcept; ///< unless one may be on the stack
     void show_substep(double time, double dt) noexcept;
     void watch_step() noexcept;
 
@@ -82,10 +124,18 @@ private:
     double time_ = 0;
     double last_step_ = 0;
     bool stepping_ = false;
+    bool meeting_ = false; ///< within meet(): pairs are for the step to come
+    OtherSpaces other_spaces_;
+    ContactChooser contact_chooser_;
+    Said said_; ///< of geoms that bear no contact
     RigidExchange exchange_;
+    Attachments attachments_;
     std::vector<std::unique_ptr<Body>> body_;
-    std::vector<std::unique_ptr<Observer>> observer_;
+    std::vector<std::unique_ptr<Observer>> observer_;      ///< null: removed while busy
+    std::vector<std::unique_ptr<Observer>> past_observer_; ///< removed, maybe still on the stack
+    bool calling_ = false;                                 ///< observers
     WorldStats stats_;
+    LiveId<SoftWorld> id_{*this};
 };
 
 } // namespace ode::soft
