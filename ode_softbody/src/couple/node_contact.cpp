@@ -2,6 +2,7 @@
 
 #include "collide/shape_distance.h"
 #include "couple/outward.h"
+#include "couple/surface_elasticity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +38,8 @@ Vec3 inward_at(const SurfaceNodes& surface, const NodeArray& position, std::size
 NodeContact::NodeContact(const SurfaceNodes& nodes, dGeomID geom)
     : nodes_(nodes), geom_(geom), stiffness_(nodes.node.size()), damping_(nodes.node.size()),
       anchor_(nodes.node.size(), Vec3::Zero()), anchored_(nodes.node.size(), 0),
-      entered_(nodes.node.size(), Vec3::Zero()), samples_(nodes) {
+      entered_(nodes.node.size(), Vec3::Zero()), overlap_(nodes.node.size()), samples_(nodes),
+      poles_(nodes) {
     candidate_.reserve(nodes.node.size());
     touch_.reserve(nodes.node.size());
 }
@@ -48,10 +50,16 @@ void NodeContact::begin_step(const RigidShape& shape, const ContactLaw& law,
         std::fill(anchored_.begin(), anchored_.end(), std::uint8_t{0});
         touch_.clear();
         samples_.forget();
+        poles_.forget();
+        is_prepared_ = false;
+        std::fill(overlap_.begin(), overlap_.end(), Overlap{});
         softening_ = 1;
     }
+    is_prepared_ &= law == law_;
     shape_ = shape;
     law_ = law;
+    if (!is_prepared_)
+        prepare_points();
     inverse_mass_ = inverse_mass;
     if (shape.kind == ShapeKind::convex) {
         if (corners_.empty()) {
@@ -67,6 +75,7 @@ void NodeContact::begin_step(const RigidShape& shape, const ContactLaw& law,
     const double share = shape.kind == ShapeKind::plane    ? 1
                          : shape.kind == ShapeKind::probed ? 0.4
                                                            : 0.5;
+    poles_.begin_step(shape_, law, share, dt);
     if (shape.kind == ShapeKind::probed && !probe_) {
         probe_ = std::make_unique<SurfaceProbe>(kReach * nodes_.mean_edge);
         planes_.reserve(nodes_.node.size());
@@ -81,6 +90,29 @@ void NodeContact::begin_step(const RigidShape& shape, const ContactLaw& law,
         damping_[i] = std::fmin(stiffness_[i] * law.damping, share * kDampingShare * most / dt);
     }
     look_again_in_ = 0;
+}
+
+void NodeContact::prepare_points() {
+    is_prepared_ = true;
+    recess_.clear();
+    const bool ball = shape_.kind == ShapeKind::sphere;
+    const bool flat = shape_.kind == ShapeKind::plane || shape_.kind == ShapeKind::box ||
+                      shape_.kind == ShapeKind::convex;
+    if (!bears_by_point(nodes_, law_) || !(ball || flat))
+        return;
+    const double curvature = ball ? 1 / shape_.size.x() : 0;
+    for (std::size_t i = 0; i < nodes_.node.size(); ++i) {
+        const int node = nodes_.node[i];
+        const int triangle = nodes_.fan(node)[0];
+        const auto& corner = nodes_.triangle[index(triangle)];
+        Vec3 weight = Vec3::Zero();
+        weight[std::find(corner.begin(), corner.end(), node) - corner.begin()] = 1;
+        const bool point = ball || nodes_.elastic.bulges(i);
+        recess_.push_back(
+            point ? point_spring(nodes_, triangle, weight, curvature, law_.rigid_compliance)
+                        .end_depth()
+                  : 0);
+    }
 }
 
 void NodeContact::find_candidates(const NodeArray& position, const NodeArray& velocity,
@@ -107,6 +139,8 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
         samples_.look(position, pose, reach);
     else
         samples_.look_away();
+    if (!recess_.empty() && shape_.kind != ShapeKind::sphere)
+        poles_.look(candidate_, position, pose);
     // Samples lie within size of the shape's middle; rotation may move them faster than any node
     // sees.
     const double span =
@@ -172,10 +206,13 @@ ContactTally NodeContact::add_force(const NodeArray& position, const NodeArray& 
     tally.tests += candidate_.size();
     if (samples_.is_near())
         load += samples_.find_touching(position, velocity, rigid, shape_.pose, dt, tally.tests);
-    if (!touch_.empty() || samples_.is_touching()) {
+    if (poles_.is_near())
+        load += poles_.find_touching(position, velocity, rigid, dt, tally.tests);
+    if (!touch_.empty() || samples_.is_touching() || poles_.is_touching()) {
         softening_ = rigid.soften(load);
         push(position, velocity, rigid, dt, force);
         bearing_ += samples_.push(velocity, inverse_mass_, softening_, dt, rigid, force);
+        bearing_ += poles_.push(velocity, inverse_mass_, softening_, dt, rigid, force);
     }
     tally.bearing = bearing_;
     return tally;
@@ -193,9 +230,17 @@ double NodeContact::find_touching(Distance distance_of, const NodeArray& positio
         const Vec3 x = position[n];
         const Vec3 local = pose.to_local(x);
         SurfaceDistance gap = distance_of(shape_, local);
+        if (!recess_.empty())
+            gap.distance += recess_[index(i)];
         Vec3& entered = entered_[index(i)];
         if (anchored_[index(i)] && gap.normal.dot(entered) < 0)
             gap = {entered.dot(local) - shape_.support(entered), entered};
+        if (gap.distance < 0) {
+            const Vec3 in = -(pose.rotation * gap.normal);
+            gap.distance += overlap_[index(i)].hidden(
+                -gap.distance, (velocity[n] - motion.velocity_at(x)).dot(in), dt);
+        } else
+            overlap_[index(i)].hidden(0, 0, dt);
         if (gap.distance >= 0) {
             anchored_[index(i)] = 0;
             const double way = kForesight * dt * (velocity[n] - motion.velocity_at(x)).norm();
@@ -257,7 +302,7 @@ void NodeContact::push(const NodeArray& position, const NodeArray& velocity, Rig
         const double lightness = inverse_mass_[n];
         const Vec3 ahead = velocity[n] + dt * lightness * force[n] - rigid.velocity_ahead(x, dt);
         const double press =
-            NormalContact{.stiffness = k,
+            NormalContact{.stiffness = stiffness_[i],
                           .damping = c,
                           .compliance = lightness + rigid.compliance(x, touch.normal),
                           .depth = touch.depth,

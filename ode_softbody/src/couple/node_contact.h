@@ -2,6 +2,7 @@
 
 #include "collide/rigid_shape.h"
 #include "couple/contact_law.h"
+#include "couple/pole_contact.h"
 #include "couple/rigid_shadow.h"
 #include "couple/sample_contact.h"
 #include "couple/surface_nodes.h"
@@ -73,6 +74,8 @@ private:
     void probe_candidates(const NodeArray& position, const NodeArray& velocity,
                           const RigidMotion& motion) noexcept;
 
+    void prepare_points();
+
     void schedule_look(double nearest, double fastest) noexcept;
 
     /// A node inside the shape.
@@ -99,15 +102,19 @@ private:
     std::vector<Vec3> corners_;       ///< of a convex
     std::vector<TangentPlane> faces_; ///< of a convex
     ContactLaw law_;
+    bool is_prepared_ = false;
     // Per surface node:
-    std::vector<double> stiffness_;      ///< [N/m]
-    std::vector<double> damping_;        ///< [N s/m]
-    std::vector<Vec3> anchor_;           ///< end of the friction spring, in the shape's frame [m]
+    std::vector<double> stiffness_; ///< [N/m]
+    std::vector<double> damping_;   ///< [N s/m]
+    std::vector<double> recess_; ///< depth that point contacts take up [m]; empty: there are none
+    std::vector<Vec3> anchor_;   ///< end of the friction spring, in the shape's frame [m]
     std::vector<std::uint8_t> anchored_; ///< whether there is one
     std::vector<Vec3> entered_;          ///< outward normal where it is in, in the shape's frame
-    std::vector<int> candidate_;         ///< surface nodes near the shape
-    std::vector<Touch> touch_;           ///< of the last substep
+    std::vector<Overlap> overlap_;
+    std::vector<int> candidate_; ///< surface nodes near the shape
+    std::vector<Touch> touch_;   ///< of the last substep
     SampleContact samples_;
+    PoleContact poles_;
     struct Planes {
         int count;
         std::array<TangentPlane, SurfaceProbe::kMostPlanes> plane;

@@ -1,6 +1,7 @@
 #include "couple/sample_contact.h"
 
 #include "couple/outward.h"
+#include "couple/surface_elasticity.h"
 
 #include <algorithm>
 #include <limits>
@@ -120,11 +121,22 @@ double SampleContact::find_touching(const NodeArray& position, const NodeArray& 
         const Vec3 away = center - closest.at.point;
         const bool outside = away.dot(outward) >= 0;
         const double distance = std::sqrt(closest.distance2);
-        const double depth = sample.radius - (outside ? distance : -distance);
+        // Very near the surface the direction is lost in rounding; the feature still has one.
+        const bool clear = distance > 1e-9 * surface_.mean_edge;
+        const Vec3 normal =
+            clear ? Vec3(away * ((outside ? 1 : -1) / distance)) : outward.normalized();
+        const double whole = sample.radius - (outside ? distance : -distance);
+        Touch touch{{closest.triangle, closest.at, whole}, near.sample, 0};
+        const Vec3 slip = slip_at(touch, surface_, velocity, rigid.motion());
+        touch.depth -= state.overlap.hidden(whole, -slip.dot(normal), dt);
+        const double depth = touch.depth;
         if (depth <= 0) {
-            state = State{};
-            state.was_outside = true;
-            if (depth <= -kForesight * dt * slip_of(closest, velocity, rigid.motion()).norm())
+            if (whole <= 0) {
+                state = State{};
+                state.was_outside = true;
+                state.overlap.hidden(0, 0, dt);
+            }
+            if (depth <= -kForesight * dt * slip.norm())
                 continue;
         }
         if (!state.bears && !state.was_outside && !(depth <= kEntryDepth * surface_.mean_edge))
@@ -136,78 +148,28 @@ double SampleContact::find_touching(const NodeArray& position, const NodeArray& 
         if (!state.bears) {
             state.stretch.setZero();
             state.stiffness = k;
+            state.is_point = bears_by_point(surface_, law_) && shape_.kind == ShapeKind::sphere;
+            if (state.is_point)
+                state.point = point_spring(surface_, closest.triangle, closest.at.weight,
+                                           1 / sample.radius, law_.rigid_compliance);
         }
-        state.stiffness = std::fmin(state.stiffness, k);
-        // Very near the surface the direction is lost in rounding; the feature still has one.
-        const bool clear = distance > 1e-9 * surface_.mean_edge;
-        state.normal = clear ? Vec3(away * ((outside ? 1 : -1) / distance)) : outward.normalized();
-        const double c = std::fmin(state.stiffness * law_.damping, kDampingShare * light / dt_);
-        load +=
-            (state.stiffness * dt + 2 * c) * dt * rigid.compliance(closest.at.point, state.normal);
-        touch_.push_back({near.sample, closest.triangle, closest.at, depth});
+        state.stiffness = std::fmin(state.stiffness, k); // never rises while it bears
+        state.normal = normal;
+        touch.damping = std::fmin(state.stiffness * law_.damping, kDampingShare * light / dt_);
+        load += load_of(touch, state, touch.damping, dt, rigid);
+        touch_.push_back(touch);
     }
     return load;
-}
-
-Vec3 SampleContact::slip_of(const Closest& closest, const NodeArray& velocity,
-                            const RigidMotion& motion) const noexcept {
-    Vec3 slip = motion.velocity_at(closest.at.point);
-    const auto& corner = surface_.triangle[index(closest.triangle)];
-    for (int i = 0; i < 3; ++i)
-        slip -= closest.at.weight[i] * velocity[index(corner[index(i)])];
-    return slip;
 }
 
 std::size_t SampleContact::push(const NodeArray& velocity, std::span<const double> inverse_mass,
                                 double softening, double dt, RigidShadow& rigid,
                                 NodeArray& force) noexcept {
-    const RigidMotion& motion = rigid.motion();
-    bearing_ = 0;
-    for (const Touch& touch : touch_) {
-        State& state = state_[index(touch.sample)];
-        const auto& corner = surface_.triangle[index(touch.triangle)];
-        const Vec3& weight = touch.at.weight;
-        const double light = kShare * surface_.lightest[index(touch.triangle)];
-        const double k = softening * state.stiffness;
-        const double c =
-            softening * std::fmin(state.stiffness * law_.damping, kDampingShare * light / dt_);
-
-        // Of the rigid against the soft surface.
-        Vec3 slip = motion.velocity_at(touch.at.point);
-        Vec3 ahead = rigid.velocity_ahead(touch.at.point, dt);
-        double compliance = rigid.compliance(touch.at.point, state.normal);
-        for (int i = 0; i < 3; ++i) {
-            const std::size_t n = index(corner[index(i)]);
-            slip -= weight[i] * velocity[n];
-            ahead -= weight[i] * (velocity[n] + dt * inverse_mass[n] * force[n]);
-            compliance += weight[i] * weight[i] * inverse_mass[n];
-        }
-        const double parting = slip.dot(state.normal);
-        const double press = NormalContact{.stiffness = k,
-                                           .damping = c,
-                                           .compliance = compliance,
-                                           .depth = touch.depth,
-                                           .speed = -parting,
-                                           .ahead = -ahead.dot(state.normal)}
-                                 .press(dt);
-        if (press == 0)
-            continue;
-        ++bearing_;
-        state.bears = true;
-        const Vec3 across = slip - parting * state.normal;
-        const double grip = law_.friction * press;
-        state.stretch += dt * across;
-        state.stretch -= state.normal.dot(state.stretch) * state.normal;
-        clamp_length(state.stretch, grip / (kTangential * k));
-        Vec3 f = -kTangential * (k * state.stretch + c * across);
-        clamp_length(f, grip);
-        f += press * state.normal;
-
-        for (int i = 0; i < 3; ++i)
-            force[index(corner[index(i)])] -= weight[i] * f;
-        rigid.add({f, (touch.at.point - motion.pose.position).cross(f)});
-    }
-    return bearing_;
+    std::size_t bearing = 0;
+    for (const Touch& touch : touch_)
+        bearing += push_triangle(touch, state_[index(touch.sample)], law_, touch.damping, softening,
+                                 surface_, velocity, inverse_mass, dt, rigid, force);
+    return bearing;
 }
 
 } // namespace ode::soft

@@ -1,10 +1,7 @@
 #pragma once
 
-#include "collide/closest_point.h"
-#include "couple/contact_law.h"
 #include "couple/rigid_samples.h"
-#include "couple/rigid_shadow.h"
-#include "couple/surface_nodes.h"
+#include "couple/triangle_touch.h"
 
 #include <span>
 #include <vector>
@@ -48,23 +45,17 @@ public:
     void forget() noexcept;
 
 private:
-    struct State {
-        bool bears = false;
+    struct State : TouchState {
         bool was_outside = false;
-        Vec3 normal = Vec3::Zero();  ///< of the soft surface, outward, world
-        Vec3 stretch = Vec3::Zero(); ///< of the friction spring, world [m]
-        double stiffness;            ///< never rises while it bears [N/m]
     };
     struct Near { ///< a sample and its range of pair_
         int sample;
         int first;
         int last;
     };
-    struct Touch {
+    struct Touch : TriangleTouch {
         int sample;
-        int triangle;
-        TrianglePoint at;
-        double depth;
+        double damping; ///< [N s/m]
     };
     struct Closest {
         int triangle = -1;
@@ -72,9 +63,6 @@ private:
         double distance2;
     };
 
-    /// Velocity of the rigid sample against the soft surface [m/s].
-    Vec3 slip_of(const Closest& closest, const NodeArray& velocity,
-                 const RigidMotion& motion) const noexcept;
     Closest find_closest(const Near& near, const Vec3& center, const State& state,
                          const NodeArray& position) const noexcept;
 
@@ -88,7 +76,6 @@ private:
     std::vector<Near> near_;
     std::vector<int> pair_; ///< triangles
     std::vector<Touch> touch_;
-    std::size_t bearing_ = 0;
 };
 
 } // namespace ode::soft

@@ -24,6 +24,7 @@ SurfaceNodes::SurfaceNodes(const TetMesh& mesh, const Surface& surface,
         const Vec3 e2 = corner(2) - corner(0);
         for (const int n : corners)
             area[place[static_cast<std::size_t>(n)]] += e1.cross(e2).norm() / 6;
+        side.push_back({(e2 - e1).norm(), e2.norm(), e1.norm()});
         edges += e1.norm() + e2.norm() + (e2 - e1).norm();
     }
     if (node.empty())

@@ -1,6 +1,7 @@
 #include "world/rigid_exchange.h"
 
 #include "collide/rigid_shape.h"
+#include "couple/surface_elasticity.h"
 #include "world/body.h"
 
 #include <algorithm>
@@ -77,6 +78,10 @@ RigidExchange::Contact& RigidExchange::contact_of(Body& body, dGeomID geom) {
     });
     if (found != contact_.end())
         return *found;
+    // Only bodies that meet something need to know.
+    if (!body.contact_nodes_.elastic.known())
+        body.contact_nodes_.elastic =
+            measure_elasticity(body.mesh_, body.contact_nodes_, *body.model_, body.solids_);
     return contact_.emplace_back(
         Contact{&body, std::make_unique<NodeContact>(body.contact_nodes_, geom), 0});
 }

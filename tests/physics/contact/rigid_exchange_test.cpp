@@ -176,6 +176,66 @@ INSTANTIATE_TEST_SUITE_P(Floors, RestsOn,
                          testing::Values(Floor::plane, Floor::box, Floor::cylinder, Floor::trimesh,
                                          Floor::convex, Floor::heightfield));
 
+/// Largest departure of the force that holds a body up from its weight, over some steps, in
+/// weights.
+template <class Momentum>
+double ripple(App& app, double weight, dReal h, int steps, Momentum momentum_up) {
+    double worst = 0;
+    double before = momentum_up();
+    for (int i = 0; i < steps; ++i) {
+        app.step(h);
+        const double now = momentum_up();
+        worst = std::fmax(worst, std::fabs(now - before) / h / weight);
+        before = now;
+    }
+    return worst;
+}
+
+double momentum_up(dSoftBodyID body) {
+    dVector3 momentum;
+    dVector3 spin;
+    dSoftBodyGetMomentum(body, momentum, spin);
+    return momentum[2];
+}
+
+TEST(RestingLoad, OfASoftCubeDoesNotRipple) {
+    for (const bool on_box : {false, true}) {
+        App app;
+        dWorldSetGravity(app.world, 0, 0, -9.81);
+        if (on_box)
+            dGeomSetPosition(dCreateBox(app.space, 1, 1, 1), 0, 0, -0.5);
+        else
+            dCreatePlane(app.space, 0, 0, 1, 0);
+        const dSoftBodyID cube = app.soft_box(0.1, 3, 2e5, 1000, 1e-3);
+        dSoftBodySetPosition(cube, 0, 0, 0.06);
+        for (int i = 0; i < 600; ++i)
+            app.step(0.005);
+        const double worst = ripple(app, 9.81 * dSoftBodyGetMass(cube), 0.005, 40,
+                                    [&] { return momentum_up(cube); });
+        std::printf("on a %s: ripple %.1e of the weight\n", on_box ? "box" : "plane", worst);
+        EXPECT_LT(worst, 0.01);
+    }
+}
+
+TEST(RestingLoad, OfARigidBoxOnASoftOneDoesNotRipple) {
+    App app;
+    dWorldSetGravity(app.world, 0, 0, -9.81);
+    dCreatePlane(app.space, 0, 0, 1, 0);
+    const dSoftBodyID cube = app.soft_box(0.1, 3, 2e5, 1000, 1e-3);
+    dSoftBodySetPosition(cube, 0, 0, 0.051);
+    const dBodyID box = app.rigid_box({0.06, 0.06, 0.04}, 0.3);
+    dBodySetPosition(box, 0.004, 0.007, 0.125);
+    for (int i = 0; i < 800; ++i)
+        app.step(0.005);
+    const double worst =
+        ripple(app, 9.81 * 0.3, 0.005, 40, [&] { return 0.3 * double(dBodyGetLinearVel(box)[2]); });
+    const Vec3 at = vec(dBodyGetPosition(box));
+    std::printf("rigid on soft: ripple %.1e of the weight; at %.2f %.2f %.2f mm\n", worst,
+                1e3 * at.x(), 1e3 * at.y(), 1e3 * at.z());
+    EXPECT_LT(worst, 0.01);
+    EXPECT_GT(at.z(), 0.11);
+}
+
 struct Throw {
     double mass_ratio; ///< rigid to soft
     double h;

@@ -194,7 +194,8 @@ struct Shot {
 class Fast : public testing::TestWithParam<Shot> {};
 
 // 100 m/s is 1 mm a substep against a plate of 20 mm, and 0.7 of the plate's wave speed. A few
-// grams, so that the plate could stop them at all.
+// grams, so that the plate could stop them at all. What keeps the explicit friction and dashpots
+// of a light body stable must not soften the spring in the middle of an impact: the box lost 45 %.
 TEST_P(Fast, DoesNotTunnel) {
     const auto& [kind, size] = GetParam();
     Scene scene(1e-5);
@@ -205,6 +206,7 @@ TEST_P(Fast, DoesNotTunnel) {
                        Quat(0.9, 0.3, 0.2, 0.1).normalized(), Vec3::Zero(), 0.003);
     std::printf("fast %d: leaves at %.1f m/s, depth %.1f mm, energy %+.2e\n",
                 static_cast<int>(kind), o.away, 1e3 * o.depth, o.energy_error);
+    EXPECT_NEAR(o.energy_error, 0, 0.03);
     EXPECT_GT(o.away, -5); // the plate's own speed once it has all of the momentum: 0.25 m/s
 }
 

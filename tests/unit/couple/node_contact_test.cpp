@@ -184,6 +184,19 @@ TEST_F(Slope, HoldsBelowTheFrictionAngle) {
     EXPECT_LT(std::fabs(after - before), 1e-13); // no creep at all
 }
 
+// Two hundredths beside the limit of 0.5.
+TEST_F(Slope, TellsHoldingFromSlidingNearTheLimit) {
+    const auto [before, v0] = slide(0.49, 0.5);
+    const auto [after, v1] = slide(0.49, 1.0);
+    EXPECT_LT(std::fabs(v1), 1e-12);
+    EXPECT_LT(std::fabs(after - before), 1e-13);
+    EXPECT_LT(before, 1e-5);
+    const double angle = std::atan(0.51);
+    // Between two moments: while the spring is first stretched, the node slides more freely.
+    const double gain = 9.81 * (std::sin(angle) - 0.5 * std::cos(angle)) * 0.5;
+    EXPECT_NEAR(slide(0.51, 1.0).second - slide(0.51, 0.5).second, gain, 1e-3 * gain);
+}
+
 TEST_F(Slope, SlidesAboveItAsCoulombSays) {
     const double seconds = 0.5;
     const double angle = std::atan(0.6);

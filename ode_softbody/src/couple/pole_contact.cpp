@@ -1,0 +1,259 @@
+#include "couple/pole_contact.h"
+
+#include "couple/surface_elasticity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ode::soft {
+namespace {
+
+constexpr double kHold = 0.7; ///< of the depth at which the mesh has become the spring
+
+std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+
+/// Largest value of a.w + sum of w_j w_k b_i over the triangle. @param w  out: where.
+double highest(const Vec3& a, const std::array<double, 3>& b, Vec3& w) noexcept {
+    int top = 0;
+    const double corner = a.maxCoeff(&top);
+    w = Vec3::Unit(top);
+    double best = corner;
+    // Inside: all three derivatives equal, a_i + sum over others of w_k b = m.
+    Mat3 m;
+    m << 0, b[2], b[1], b[2], 0, b[0], b[1], b[0], 0;
+    Eigen::Matrix4d system;
+    system << m, -Vec3::Ones(), Eigen::RowVector3d::Ones(), 0;
+    Eigen::Vector4d right;
+    right << -a, 1;
+    if (b[0] > 0 && b[1] > 0 && b[2] > 0) {
+        const Eigen::Vector4d solution = system.inverse() * right;
+        const Vec3 at = solution.head<3>();
+        if (at.allFinite() && at.minCoeff() >= 0) {
+            const double value = a.dot(at) + 0.5 * at.dot(m * at);
+            if (value > best) {
+                w = at;
+                best = value;
+            }
+        }
+    }
+    for (int i = 0; i < 3; ++i) {
+        if (!(b[index(i)] > 0))
+            continue;
+        const int j = (i + 1) % 3;
+        const int k = (i + 2) % 3;
+        const double t = (a[k] - a[j] + b[index(i)]) / (2 * b[index(i)]);
+        if (!(t > 0 && t < 1))
+            continue;
+        const double value = a[j] + t * (a[k] - a[j]) + t * (1 - t) * b[index(i)];
+        if (value > best) {
+            best = value;
+            w = (1 - t) * Vec3::Unit(j) + t * Vec3::Unit(k);
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+void PoleContact::begin_step(const RigidShape& shape, const ContactLaw& law, double share,
+                             double dt) {
+    shape_ = &shape;
+    law_ = law;
+    share_ = share;
+    dt_ = dt;
+}
+
+double PoleContact::depth_of(const NodeArray& position, const Pose& shape,
+                             int node) const noexcept {
+    return -shape_->distance(shape.to_local(position[index(node)])).distance;
+}
+
+void PoleContact::climb(Pole& pole, const NodeArray& position, const Pose& shape) const noexcept {
+    double depth = depth_of(position, shape, pole.node);
+    for (bool moved = true; moved;) {
+        moved = false;
+        for (const int t : surface_.fan(pole.node))
+            for (const int n : surface_.triangle[index(t)]) {
+                const double there = n == pole.node ? depth : depth_of(position, shape, n);
+                if (there > depth) {
+                    depth = there;
+                    pole.node = n;
+                    moved = true;
+                }
+            }
+    }
+}
+
+void PoleContact::look(std::span<const int> candidate, const NodeArray& position,
+                       const Pose& shape) noexcept {
+    const PointElasticity& elastic = surface_.elastic;
+    std::size_t kept = 0;
+    const auto known = [&](int node) {
+        return std::any_of(pole_.begin(), pole_.begin() + static_cast<std::ptrdiff_t>(kept),
+                           [&](const Pole& pole) { return pole.node == node; });
+    };
+    for (std::size_t p = 0; p < pole_count_; ++p) { // poles that have met become one
+        climb(pole_[p], position, shape);
+        if (!known(pole_[p].node))
+            pole_[kept++] = pole_[p];
+    }
+    pole_count_ = kept;
+    int first = -1;
+    double deepest = -std::numeric_limits<double>::infinity();
+    for (const int i : candidate) {
+        const double depth = depth_of(position, shape, surface_.node[index(i)]);
+        if (elastic.bulges(index(i)) && depth > deepest) {
+            deepest = depth;
+            first = i;
+        }
+    }
+    if (first < 0) {
+        pole_count_ = 0;
+        return;
+    }
+    for (const int i : candidate) {
+        if (kept == kMostPoles)
+            break;
+        if (!elastic.bulges(index(i)))
+            continue;
+        const double turn = elastic.curvature[index(i)][0] * surface_.mean_edge;
+        const Vec3 apart = elastic.normal[index(i)] - elastic.normal[index(first)];
+        if (i != first && apart.squaredNorm() > turn * turn)
+            continue;
+        Pole pole;
+        pole.node = surface_.node[index(i)];
+        climb(pole, position, shape);
+        if (pole.node == surface_.node[index(i)] && !known(pole.node))
+            pole_[kept++] = pole;
+    }
+    pole_count_ = kept;
+}
+
+void PoleContact::find_deepest(Pole& pole, const NodeArray& position,
+                               const Pose& shape) const noexcept {
+    const PointElasticity& elastic = surface_.elastic;
+    const double half = pole.state.bears ? pole.force / 2 : 0;
+    double most = -std::numeric_limits<double>::infinity();
+    for (const int t : surface_.fan(pole.node)) {
+        const auto& corner = surface_.triangle[index(t)];
+        Vec3 depth;
+        for (int i = 0; i < 3; ++i)
+            depth[i] = depth_of(position, shape, corner[index(i)]);
+        const std::array<double, 3>& bulge = elastic.bulge[index(t)];
+        const std::array<double, 3> coupling = corner_coupling(surface_, t);
+        Vec3 lifted = depth;
+        std::array<double, 3> rise = bulge;
+        for (int i = 0; i < 3; ++i) {
+            const double own = elastic.compliance[index(elastic.place[index(corner[index(i)])])];
+            lifted[i] += half * own;
+            rise[index((i + 1) % 3)] -= half * own;
+            rise[index((i + 2) % 3)] -= half * own;
+            rise[index(i)] += half * 2 * coupling[index(i)];
+        }
+        Vec3 w;
+        const double here = highest(lifted, rise, w);
+        if (here <= most)
+            continue;
+        most = here;
+        pole.touch.depth =
+            depth.dot(w) + w[1] * w[2] * bulge[0] + w[2] * w[0] * bulge[1] + w[0] * w[1] * bulge[2];
+        pole.touch.triangle = t;
+        pole.touch.at.weight = w;
+    }
+    place(pole.touch, position);
+}
+
+void PoleContact::follow(Pole& pole, const NodeArray& position, const Pose& shape) const noexcept {
+    const auto& corner = surface_.triangle[index(pole.touch.triangle)];
+    const std::array<double, 3>& bulge = surface_.elastic.bulge[index(pole.touch.triangle)];
+    const Vec3& w = pole.touch.at.weight;
+    double depth = 0;
+    for (int i = 0; i < 3; ++i)
+        depth += w[i] * depth_of(position, shape, corner[index(i)]) +
+                 w[(i + 1) % 3] * w[(i + 2) % 3] * bulge[index(i)];
+    pole.touch.depth = depth;
+    place(pole.touch, position);
+}
+
+bool PoleContact::repeats_another(std::size_t p) const noexcept {
+    return std::any_of(
+        pole_.begin(), pole_.begin() + static_cast<std::ptrdiff_t>(p), [&](const Pole& other) {
+            return (other.touch.at.point - pole_[p].touch.at.point).norm() < surface_.mean_edge;
+        });
+}
+
+void PoleContact::place(TriangleTouch& touch, const NodeArray& position) const noexcept {
+    touch.at.point.setZero();
+    const auto& corner = surface_.triangle[index(touch.triangle)];
+    for (int i = 0; i < 3; ++i)
+        touch.at.point += touch.at.weight[i] * position[index(corner[index(i)])];
+}
+
+double PoleContact::find_touching(const NodeArray& position, const NodeArray& velocity,
+                                  const RigidShadow& rigid, double dt,
+                                  unsigned long& tests) noexcept {
+    const Pose shape = shape_->pose.in(rigid.motion().pose);
+    double load = 0;
+    touching_ = false;
+    for (std::size_t p = 0; p < pole_count_; ++p) {
+        Pole& pole = pole_[p];
+        TouchState& state = pole.state;
+        // Where the mesh has become the spring, its dent would drive the point about.
+        if (state.bears && pole.touch.depth > kHold * state.point.end_depth())
+            pole.held = true;
+        if (pole.held) {
+            follow(pole, position, shape);
+            pole.held = pole.touch.depth > 0;
+        }
+        if (!pole.held) {
+            climb(pole, position, shape);
+            find_deepest(pole, position, shape);
+        }
+        if (repeats_another(p)) {
+            pole.touches = false;
+            continue;
+        }
+        tests += surface_.fan(pole.node).size();
+        const Vec3 inward = shape_->distance(shape.to_local(pole.touch.at.point)).normal;
+        state.normal = -(shape.rotation * inward);
+        const Vec3 slip = slip_at(pole.touch, surface_, velocity, rigid.motion());
+        pole.touch.depth -= state.overlap.hidden(pole.touch.depth, -slip.dot(state.normal), dt);
+        pole.touches = pole.touch.depth > -kForesight * dt * slip.norm();
+        if (pole.touch.depth <= 0)
+            state.bears = false;
+        if (!pole.touches)
+            continue;
+        touching_ = true;
+        const double light = share_ * surface_.lightest[index(pole.touch.triangle)];
+        if (!state.bears) {
+            state.stretch.setZero();
+            state.stiffness = kStiffnessShare / (dt_ * dt_) * light;
+        }
+        // What the mesh yields there: the contact may roll on.
+        state.is_point = true;
+        state.point = point_spring(surface_, pole.touch.triangle, pole.touch.at.weight, 0,
+                                   law_.rigid_compliance);
+        pole.damping = std::fmin(state.stiffness * law_.damping, kDampingShare * light / dt_);
+        load += load_of(pole.touch, state, pole.damping, dt, rigid);
+    }
+    return load;
+}
+
+std::size_t PoleContact::push(const NodeArray& velocity, std::span<const double> inverse_mass,
+                              double softening, double dt, RigidShadow& rigid,
+                              NodeArray& force) noexcept {
+    std::size_t bearing = 0;
+    for (std::size_t p = 0; p < pole_count_; ++p) {
+        Pole& pole = pole_[p];
+        if (!pole.touches)
+            continue;
+        const HertzSpring& point = pole.state.point;
+        pole.force = std::fmin(point.force(pole.touch.depth), point.end_force());
+        bearing += push_triangle(pole.touch, pole.state, law_, pole.damping, softening, surface_,
+                                 velocity, inverse_mass, dt, rigid, force);
+    }
+    return bearing;
+}
+
+} // namespace ode::soft

@@ -1,0 +1,77 @@
+#pragma once
+
+#include "collide/rigid_shape.h"
+#include "couple/triangle_touch.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace ode::soft {
+
+/// Contact of a soft body's bulges with a rigid shape's flat faces, as of the curved surface that
+/// the facets stand for: a ball of facets meets a floor in one point, on whichever facet, edge or
+/// node it lies, and yields there by Hertz's law less the mesh's share (HertzSpring). Owned by
+/// NodeContact, whose nodes bear only beyond the depth that this contact takes up.
+///
+/// Depth over a triangle: sum of w_i d_i + sum of w_j w_k bulge_i, with the corners' depths d. Its
+/// largest value is continuous from triangle to triangle, and its derivative by a corner's place is
+/// the corner's weight there: the force has a potential.
+class PoleContact {
+public:
+    static constexpr std::size_t kMostPoles = 8;
+
+    explicit PoleContact(const SurfaceNodes& surface) : surface_(surface) {}
+
+    /// @param shape  borrowed till the next.
+    /// @param share  of what a node bears, that is this contact's
+    void begin_step(const RigidShape& shape, const ContactLaw& law, double share, double dt);
+    void forget() noexcept { pole_count_ = 0; }
+
+    /// Chooses the nodes at which bulges come nearest among those near the shape: where all
+    /// neighbours are farther, and as steep to the shape, in the rest frame, as the nearest of all,
+    /// so that what contact has flattened stays one bulge.
+    void look(std::span<const int> candidate, const NodeArray& position,
+              const Pose& shape) noexcept;
+    bool is_near() const noexcept { return pole_count_ > 0; }
+
+    /// As SampleContact's.
+    double find_touching(const NodeArray& position, const NodeArray& velocity,
+                         const RigidShadow& rigid, double dt, unsigned long& tests) noexcept;
+    bool is_touching() const noexcept { return touching_; }
+    std::size_t push(const NodeArray& velocity, std::span<const double> inverse_mass,
+                     double softening, double dt, RigidShadow& rigid, NodeArray& force) noexcept;
+
+private:
+    struct Pole {
+        int node = 0; ///< of the mesh: the deepest
+        bool touches = false;
+        TriangleTouch touch;
+        TouchState state;
+        double damping = 0; ///< [N s/m]
+        double force = 0;   ///< lately [N]
+        bool held = false;  ///< where it is on the surface
+    };
+
+    double depth_of(const NodeArray& position, const Pose& shape, int node) const noexcept;
+    void climb(Pole& pole, const NodeArray& position, const Pose& shape) const noexcept;
+    /// The deepest point of the curved surface round the pole's node.
+    void find_deepest(Pole& pole, const NodeArray& position, const Pose& shape) const noexcept;
+
+    /// The depth where the pole is.
+    void follow(Pole& pole, const NodeArray& position, const Pose& shape) const noexcept;
+    /// Two nodes as deep as each other share one pole between them.
+    bool repeats_another(std::size_t pole) const noexcept;
+    void place(TriangleTouch& touch, const NodeArray& position) const noexcept;
+
+    const SurfaceNodes& surface_;
+    const RigidShape* shape_ = nullptr;
+    ContactLaw law_;
+    double share_ = 0;
+    double dt_ = 0;
+    std::array<Pole, kMostPoles> pole_;
+    std::size_t pole_count_ = 0;
+    bool touching_ = false;
+};
+
+} // namespace ode::soft
