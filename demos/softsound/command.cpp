@@ -1,10 +1,21 @@
 #include "softsound/command.h"
 
+#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <stdexcept>
 
 namespace softsound {
+
+CLI::Validator positive_number() {
+    return {[](std::string& text) {
+                double value = 0;
+                return CLI::detail::lexical_cast(text, value) && value > 0 && std::isfinite(value)
+                           ? std::string()
+                           : "'" + text + "' must be a finite number above 0";
+            },
+            "POSITIVE"};
+}
 
 void add_common(CLI::App& command, Common& common) {
     command.add_option("--json", common.json, "Write the results as data ('-': standard output)")

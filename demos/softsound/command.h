@@ -19,6 +19,12 @@ struct Common {
     bool summarises() const { return !quiet && json != "-"; }
 };
 
+/// Longest side of what sounds, in metres: beyond, the mesh is likely one of millimetres.
+constexpr double kSuspiciousLength = 5;
+
+/// A finite number above 0: CLI11's own check lets NaN through.
+CLI::Validator positive_number();
+
 /// Adds --json and --quiet.
 void add_common(CLI::App& command, Common& common);
 

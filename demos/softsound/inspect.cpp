@@ -17,7 +17,6 @@ struct Options {
     double scale = 1;
 };
 
-constexpr double kHuge = 100;   // [m] nobody hears such a thing ring
 constexpr double kTiny = 1e-3;  // [m] its modes lie above hearing
 constexpr double kSliver = 0.1; // of quality: costs the explicit step a factor of about ten
 
@@ -30,7 +29,7 @@ std::string number(double x) {
 /// What a user should know. Sentences name thing, value and cure.
 std::vector<std::string> warnings(const dSoftMeshQuality& q, double longest) {
     std::vector<std::string> out;
-    if (longest > kHuge)
+    if (longest > kSuspiciousLength)
         out.push_back("the mesh is " + number(longest) +
                       " m long: millimetres taken for metres? Then --scale 0.001");
     if (longest < kTiny)
@@ -109,7 +108,7 @@ void add_inspect(CLI::App& app, Common& common) {
         ->required()
         ->type_name("MESH");
     inspect.add_option("--scale", options->scale, "Metres per unit of the file")
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->capture_default_str();
     add_common(inspect, common);
     inspect.callback([options, &common] {

@@ -20,6 +20,11 @@ double read_number(const std::string& text, const std::string& whole) {
     return value;
 }
 
+/// Numbers say nothing of damping; the default solid's is steel's.
+void undamp(dSoftSolid& solid) {
+    solid.phi = solid.psi = solid.alpha = solid.beta = solid.loss_factor = 0;
+}
+
 /// A preset's name or E:NU:RHO.
 dSoftSolid read_solid(const std::string& text, const std::string& whole) {
     dSoftSolid solid = dSoftSolidDefault();
@@ -33,6 +38,7 @@ dSoftSolid read_solid(const std::string& text, const std::string& whole) {
     if (two == std::string::npos)
         refuse("--material " + whole +
                ": three numbers are needed, E:NU:RHO in Pa, none, kg/m^3, such as 2e11:0.29:7850");
+    undamp(solid);
     solid.young = read_number(text.substr(0, one), whole);
     solid.poisson = read_number(text.substr(one + 1, two - one - 1), whole);
     solid.density = read_number(text.substr(two + 1), whole);
@@ -58,6 +64,7 @@ std::optional<dSoftSolid> by_numbers(const MaterialChoice& c) {
     if (!c.young || !c.poisson || !c.density)
         refuse("--young, --poisson and --density belong together: give all three");
     dSoftSolid solid = dSoftSolidDefault();
+    undamp(solid);
     solid.young = *c.young;
     solid.poisson = *c.poisson;
     solid.density = *c.density;

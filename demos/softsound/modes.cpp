@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <stdexcept>
@@ -64,8 +65,14 @@ std::string number(double x) {
     return text;
 }
 
-/// Applies --scale, or refuses what looks like millimetres.
-void settle_scale(dSoftMeshID mesh, const Options& o) {
+std::string fixed(double x) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.2f", x);
+    return text;
+}
+
+/// Applies --scale, or refuses what looks like millimetres; warns of what may be.
+void settle_scale(dSoftMeshID mesh, const Options& o, const Common& common) {
     if (o.scale > 0) {
         if (!dSoftMeshScale(mesh, o.scale))
             throw scenes::Refused("scale");
@@ -79,10 +86,14 @@ void settle_scale(dSoftMeshID mesh, const Options& o) {
         throw std::runtime_error("the mesh is " + number(longest) +
                                  " m long: millimetres taken for metres? Then --scale 0.001; "
                                  "if metres are right, --scale 1");
+    if (longest > kSuspiciousLength)
+        warn(common, "the mesh is " + number(longest) +
+                         " m long: millimetres taken for metres? Then --scale 0.001; if metres are "
+                         "right, --scale 1 says so");
 }
 
 void print_table(const Options& o, const dSoftModesInfo& info, std::span<const double> frequencies,
-                 std::span<const double> cents, double seconds) {
+                 std::span<const double> cents, std::span<const double> t60, double seconds) {
     std::printf("%s\n", o.mesh.c_str());
     std::printf("  nodes      %d\n", info.nodes);
     std::printf("  elements   %d\n", info.elements);
@@ -93,9 +104,12 @@ void print_table(const Options& o, const dSoftModesInfo& info, std::span<const d
     std::printf("  rigid      %d motions without strain, not listed\n", info.rigid_modes);
     std::printf("  solved     %d nodes after %d refinements, order %d, %.2f s\n\n",
                 info.solved_nodes, info.refinements, o.order, seconds);
-    std::printf("  mode   frequency [Hz]   error [cents]\n");
-    for (std::size_t k = 0; k < frequencies.size(); ++k)
-        std::printf("  %4zu   %14.3f   %s%.2f\n", k + 1, frequencies[k], "+-", cents[k]);
+    std::printf("  mode   frequency [Hz]   error [cents]   T60 [s]\n");
+    for (std::size_t k = 0; k < frequencies.size(); ++k) {
+        std::printf("  %4zu   %14.3f   %13s", k + 1, frequencies[k],
+                    ("+-" + fixed(cents[k])).c_str());
+        std::isfinite(t60[k]) ? std::printf("   %7.3g\n", t60[k]) : std::printf("         -\n");
+    }
 }
 
 /// What a user should know about the result.
@@ -112,6 +126,11 @@ void comment(const Common& common, const Options& o, const dSoftModesInfo& info,
                          std::to_string(info.limited_edges) +
                          " could not be curved as they should: the band may not hold; mesh rounds "
                          "with at least ten facets, or say --facets if they are meant");
+    if (info.rigid_modes > 6)
+        warn(common,
+             "the body has " + std::to_string(info.rigid_modes) +
+                 " motions without strain, 6 a piece: it falls into parts, or they hang "
+                 "together by a node or an edge; merge duplicate nodes if it should be one");
     if (cents.empty())
         warn(common, "no elastic mode up to the highest frequency: --count N gives the lowest");
     else if (o.count == 0 && cents.size() == kMostUnasked)
@@ -120,7 +139,7 @@ void comment(const Common& common, const Options& o, const dSoftModesInfo& info,
 
 int run(const Options& o, const Common& common) {
     const ode::soft::MeshHandle mesh(scenes::made(dSoftMeshLoad(o.mesh.c_str())));
-    settle_scale(mesh, o);
+    settle_scale(mesh, o, common);
     const std::vector<dSoftSolid> solids = choose_solids(mesh, o.material);
     const std::vector<int> clamped = clamped_nodes(mesh, o.clamps);
 
@@ -152,13 +171,14 @@ int run(const Options& o, const Common& common) {
     dSoftModesInfo info = {};
     info.struct_size = sizeof info;
     dSoftModesGetInfo(modes, &info);
-    const dReal *f = nullptr, *e = nullptr;
+    const dReal *f = nullptr, *e = nullptr, *t = nullptr;
     const auto count = static_cast<std::size_t>(dSoftModesGetFrequencies(modes, &f));
     dSoftModesGetErrorCents(modes, &e);
-    const std::span frequencies(f, count), cents(e, count);
+    dSoftModesGetT60(modes, &t);
+    const std::span frequencies(f, count), cents(e, count), t60(t, count);
 
     if (common.summarises())
-        print_table(o, info, frequencies, cents, seconds);
+        print_table(o, info, frequencies, cents, t60, seconds);
     comment(common, o, info, cents);
     write_json(common, {{"nodes", info.nodes},
                         {"elements", info.elements},
@@ -198,7 +218,7 @@ void add_modes(CLI::App& app, Common& common) {
     modes
         .add_option("--tolerance", o.tolerance,
                     "Refine until the first eight (or --count) partials are right to so many cents")
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->type_name("CENTS");
     modes.add_option("--count", o.count, "Lowest so many modes; without: up to --max-frequency")
         ->check(CLI::Range(1, 1000000))
@@ -206,12 +226,12 @@ void add_modes(CLI::App& app, Common& common) {
     modes
         .add_option("--max-frequency", o.max_frequency,
                     "In Hz; 22000 without --count, and 100 modes at most")
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->type_name("HZ");
     modes.add_option("--max-nodes", o.max_nodes, "Limit of --tolerance's refinement")
         ->check(CLI::Range(10, 100000000))
         ->capture_default_str();
-    modes.add_option("--scale", o.scale, "Metres per unit of the file")->check(CLI::PositiveNumber);
+    modes.add_option("--scale", o.scale, "Metres per unit of the file")->check(positive_number());
     modes.add_flag("--facets", o.facets,
                    "Facets are meant: don't take those that meet below 50 degrees for a round");
     modes.add_flag("--no-cache", o.no_cache, "Neither look results up on disk nor keep them");

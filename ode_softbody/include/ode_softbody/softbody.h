@@ -144,6 +144,8 @@ typedef struct dSoftSolid {
     dReal psi;            /**< viscous counterpart of mu [Pa s], >= 0 (P01 3.1) */
     dReal alpha;          /**< mass-proportional damping [1/s], >= 0 */
     dReal beta;           /**< stiffness-proportional damping [s], >= 0 */
+    dReal loss_factor;    /**< [-], 0 to 1, the same at all frequencies. Adds to the damping above,
+                               and needs modes: see dSoftBodySetModalDamping() */
 } dSoftSolid;
 
 DSOFT_API dSoftSolid dSoftSolidDefault(void); /**< steel */
@@ -151,6 +153,29 @@ DSOFT_API dSoftSolid dSoftSolidDefault(void); /**< steel */
 DSOFT_API int dSoftSolidPreset(const char* name, dSoftSolid* solid);
 /** Name of the i-th preset, NULL past the last. */
 DSOFT_API const char* dSoftSolidPresetName(int i);
+
+/* ---- Damping ----------------------------------------------------------------------------- */
+
+/* An amplitude that falls by exp(-d t) has the decay rate d [1/s]. It is told in four ways, of
+ * which those with a frequency f [Hz] need it; right for Q above 5 or so. A number that isn't
+ * positive gives 0 or infinity, as the formula does. */
+
+/** T60 = ln(1000) / d: time to fall by 60 dB [s]. */
+DSOFT_API dReal dSoftT60FromDecay(dReal decay);
+DSOFT_API dReal dSoftDecayFromT60(dReal t60);
+/** Quality factor Q = pi f / d. */
+DSOFT_API dReal dSoftQFromDecay(dReal decay, dReal frequency);
+DSOFT_API dReal dSoftDecayFromQ(dReal q, dReal frequency);
+/** Loss factor eta = d / (pi f) = 1 / Q. */
+DSOFT_API dReal dSoftLossFactorFromDecay(dReal decay, dReal frequency);
+DSOFT_API dReal dSoftDecayFromLossFactor(dReal loss_factor, dReal frequency);
+/** Of a solid at a frequency: (alpha + beta (2 pi f)^2) / 2 + pi f loss_factor, phi and psi aside.
+ */
+DSOFT_API dReal dSoftDecayFromSolid(const dSoftSolid* solid, dReal frequency);
+/** Sets alpha and beta so that T60 is t1 [s] at f1 [Hz] and t2 at f2.
+ * @return 0 after a sentence where no alpha, beta >= 0 do: T60 may not grow with frequency, nor
+ * fall faster than its square. */
+DSOFT_API int dSoftSolidSetT60(dSoftSolid* solid, dReal f1, dReal t1, dReal f2, dReal t2);
 
 /* ---- Vibration modes --------------------------------------------------------------------- */
 
@@ -200,6 +225,10 @@ DSOFT_API int dSoftModesGetCount(dSoftModesID modes);
 DSOFT_API int dSoftModesGetFrequencies(dSoftModesID modes, const dReal** first);
 /** Half-widths of the bands [cents, 1200 an octave]; borrowed. @return how many. */
 DSOFT_API int dSoftModesGetErrorCents(dSoftModesID modes, const dReal** first);
+/** Time in which each mode falls by 60 dB [s], by the damping of the solids; infinite without;
+ * borrowed. Exact for one solid; of several, each counts by its share of the mode's energy, which
+ * is taken from the shape on the mesh as given. @return how many. */
+DSOFT_API int dSoftModesGetT60(dSoftModesID modes, const dReal** first);
 /** Displacement of the mesh's nodes in a mode, mass-normalised [kg^-1/2]; borrowed.
  * @param first  out: x of node 0.  @param stride out: dReals from node to node.
  * @return node count; 0 for a mode that there isn't. */
@@ -244,7 +273,9 @@ DSOFT_API void* dSoftBodyGetData(dSoftBodyID body);
 
 /** Order of the elements. 1: four nodes, cheap, and octaves sharp where the body is thin. 2: ten
  * nodes, in tune, for about twelve times the cost of the same mesh; a linear mesh is promoted, its
- * mid-edge nodes come after its own. @param order 1 or 2; 1 is refused for a mesh that has mid-edge
+ * mid-edge nodes come after its own. Mass is lumped in both (order 2: Hinton, Rock & Zienkiewicz),
+ * because an explicit step divides by it node by node; the consistent mass, which is truer in
+ * pitch, is for dSoftModesCompute(). @param order 1 or 2; 1 is refused for a mesh that has mid-edge
  * nodes itself. */
 DSOFT_API int dSoftBodySetOrder(dSoftBodyID body, int order);
 DSOFT_API int dSoftBodyGetOrder(dSoftBodyID body);
@@ -258,6 +289,21 @@ DSOFT_API const char* dSoftBodyGetMaterialModel(dSoftBodyID body); /**< borrowed
  * @param curved 1, or 0 for straight edges again.
  * @param moved  out, or NULL: surface edges that are curved now. */
 DSOFT_API int dSoftBodySetCurved(dSoftBodyID body, int curved, int* moved);
+
+/** Damps the body mode by mode (1) instead of by viscous stress (0, the default). The same decay in
+ * the linear range, and each mode to rounding, but the substep needn't shrink for it: for bodies
+ * that ring it is the faster way. The modes up to 22 kHz (500 at most) are found at the first step,
+ * and again when pins change: some seconds for 10 000 nodes, kept in the cache of
+ * dSoftModesCompute. What is above them decays like the highest. Rigid motion is never damped. The
+ * body must be one piece. On by itself, and not to be had off, with a loss factor or a table. */
+DSOFT_API int dSoftBodySetModalDamping(dSoftBodyID body, int on);
+DSOFT_API int dSoftBodyGetModalDamping(dSoftBodyID body); /**< whether modes damp the body */
+/** Decay times of the body in place of those of its solids: T60 [s] at frequencies [Hz], ascending.
+ * Between two, the decay rate is a power of frequency; beyond the ends it stays. Give one entry a
+ * mode, or as many as were measured; dSoftT60FromDecay() takes them from Q or loss factor. Copied.
+ * @param count  0: back to the solids' damping. */
+DSOFT_API int dSoftBodySetDampingTable(dSoftBodyID body, const dReal* frequencies, const dReal* t60,
+                                       int count);
 
 /** Substep [s]: 0 lets the library choose 0.9 of the critical step. Refused above the critical. */
 DSOFT_API int dSoftBodySetSubstep(dSoftBodyID body, dReal dt);

@@ -3,7 +3,6 @@
 #include "api/handles.h"
 #include "api/solid.h"
 
-#include <algorithm>
 #include <vector>
 
 using namespace ode::soft;
@@ -27,17 +26,7 @@ dSoftBodyID dSoftBodyCreateGroups(dSoftWorldID world, dSoftMeshID mesh, const dS
     if (!home || !shape || !may_edit(*home, __func__))
         return nullptr;
     return guarded(__func__, dSoftBodyID{}, [&] {
-        const std::size_t groups = std::max<std::size_t>(1, shape->mesh.group_name.size());
-        if (count != 1 && (count < 1 || static_cast<std::size_t>(count) != groups))
-            throw InputError(format("%d solids for a mesh of %zu groups; give one a group, or one "
-                                    "for all",
-                                    count, groups));
-        std::vector<Solid> all;
-        // The application's struct may be shorter than ours.
-        const auto* at = reinterpret_cast<const char*>(solids);
-        for (int i = 0; i < count; ++i, at += solids->struct_size)
-            all.push_back(from_c(*reinterpret_cast<const dSoftSolid*>(at)));
-        return to_id(home->create_body(shape->mesh, all));
+        return to_id(home->create_body(shape->mesh, from_c(solids, count, shape->mesh)));
     });
 }
 

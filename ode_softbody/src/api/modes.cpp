@@ -4,7 +4,9 @@
 #include "api/versioned.h"
 #include "modal/block_lanczos.h"
 #include "modal/cache.h"
+#include "modal/modal_decay.h"
 #include "modal/to_tolerance.h"
+#include "model/damping.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +15,7 @@
 struct dxSoftModes {
     ode::soft::TolerantModes result;
     int nodes = 0, elements = 0; ///< of the mesh as given
+    std::vector<double> t60;     ///< [s]
     ode::soft::LiveId<dxSoftModes> id{*this};
 };
 
@@ -58,19 +61,6 @@ ToleranceOptions tolerance_options(const dSoftModesOptions& c) {
     return t;
 }
 
-/// One for each group.
-std::vector<Solid> solids_of(const TetMesh& mesh, const dSoftSolid* given, int count) {
-    const std::size_t groups = std::max<std::size_t>(1, mesh.group_name.size());
-    if (count != 1 && static_cast<std::size_t>(std::max(count, 0)) != groups)
-        throw InputError(format("%d materials for the %zu groups of the mesh: give one for each, "
-                                "or one for all",
-                                count, groups));
-    std::vector<Solid> solids;
-    for (std::size_t i = 0; i < groups; ++i)
-        solids.push_back(from_c(given[count == 1 ? 0 : i]));
-    return solids;
-}
-
 int give(const std::vector<double>& values, const dReal** first) noexcept {
     if (first)
         *first = values.data();
@@ -112,10 +102,14 @@ dSoftModesID dSoftModesCompute(dSoftMeshID id, const dSoftSolid* solids, int sol
             modal.clamped.assign(clamped, clamped + positive(clamped_count, "clamped_count"));
         modal.clamp = clamped != nullptr;
         const ToleranceOptions tolerance = tolerance_options(c);
-        const std::vector<Solid> all = solids_of(mesh->mesh, solids, solid_count);
+        std::vector<Solid> all = from_c(solids, solid_count, mesh->mesh);
+        all.resize(std::max<std::size_t>(1, mesh->mesh.group_name.size()), all[0]);
         try {
             auto modes = std::make_unique<dxSoftModes>();
             modes->result = modes_to_tolerance(mesh->mesh, all, modal, tolerance);
+            modes->t60 = modal_decays(mesh->mesh, all, modes->result.model);
+            for (double& t : modes->t60)
+                t = t60_of_decay(t);
             modes->nodes = static_cast<int>(mesh->mesh.node.size());
             modes->elements = static_cast<int>(mesh->mesh.element_count());
             return static_cast<dSoftModesID>(modes.release()->id.value());
@@ -146,6 +140,11 @@ int dSoftModesGetErrorCents(dSoftModesID id, const dReal** first) {
     if (!modes)
         return 0;
     return give(modes->result.model.error_cents, first);
+}
+
+int dSoftModesGetT60(dSoftModesID id, const dReal** first) {
+    const dxSoftModes* modes = live(id, __func__);
+    return modes ? give(modes->t60, first) : 0;
 }
 
 int dSoftModesGetShape(dSoftModesID id, int mode, const dReal** first, int* stride) {

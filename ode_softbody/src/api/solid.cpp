@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "model/materials.h"
 
+#include <algorithm>
 #include <string>
 
 namespace ode::soft {
@@ -19,6 +20,7 @@ dSoftSolid to_c(const Solid& s) noexcept {
     c.psi = s.psi;
     c.alpha = s.alpha;
     c.beta = s.beta;
+    c.loss_factor = s.loss_factor;
     return c;
 }
 
@@ -35,7 +37,22 @@ Solid from_c(const dSoftSolid& given) {
     s.psi = c.psi;
     s.alpha = c.alpha;
     s.beta = c.beta;
+    s.loss_factor = c.loss_factor;
     return s;
+}
+
+std::vector<Solid> from_c(const dSoftSolid* given, int count, const TetMesh& mesh) {
+    const std::size_t groups = std::max<std::size_t>(1, mesh.group_name.size());
+    if (count != 1 && (count < 1 || static_cast<std::size_t>(count) != groups))
+        throw InputError(format("%d solids for a mesh of %zu groups; give one a group, or one for "
+                                "all",
+                                count, groups));
+    std::vector<Solid> all;
+    // The application's struct may be shorter than ours.
+    const auto* at = reinterpret_cast<const char*>(given);
+    for (int i = 0; i < count; ++i, at += given->struct_size)
+        all.push_back(from_c(*reinterpret_cast<const dSoftSolid*>(at)));
+    return all;
 }
 
 } // namespace ode::soft

@@ -1,67 +1,44 @@
 #include "integrate/mass_damping.h"
 
+#include "integrate/rigid_fit.h"
+
 #include <cmath>
 
 namespace ode::soft {
 namespace {
 
-struct RigidFit {
-    Vec3 center = Vec3::Zero();
-    Vec3 velocity = Vec3::Zero();
-    Vec3 spin = Vec3::Zero();
-
-    Vec3 at(const Vec3& x) const noexcept { return velocity + spin.cross(x - center); }
-};
-
-/// The rigid motion with the linear and angular momentum of the free nodes, each of the mass
-/// weight(i).
-template <class Weight>
-RigidFit fit(Weight weight, std::span<const double> inverse_mass, const NodeState& state) noexcept {
-    RigidFit rigid;
-    double total = 0;
-    for (std::size_t i = 0; i < inverse_mass.size(); ++i) {
-        if (inverse_mass[i] == 0)
-            continue;
-        const double m = weight(i);
-        total += m;
-        rigid.center += m * state.position[i];
-        rigid.velocity += m * state.velocity[i];
-    }
-    if (total == 0)
-        return rigid; // only held nodes would lose anything
-    rigid.center /= total;
-    rigid.velocity /= total;
-    Mat3 inertia = Mat3::Zero();
-    Vec3 momentum = Vec3::Zero();
-    for (std::size_t i = 0; i < inverse_mass.size(); ++i) {
-        if (inverse_mass[i] == 0)
-            continue;
-        const Vec3 r = state.position[i] - rigid.center;
-        const double m = weight(i);
-        inertia += m * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
-        momentum += m * r.cross(state.velocity[i]);
-    }
-    rigid.spin = inertia.ldlt().solve(momentum);
-    return rigid;
+/// @param weight  mass of node i, or its share that counts.
+template <class Weight, class Loss>
+void damp(Weight weight, Loss loss, std::span<const double> inverse_mass, std::span<const int> held,
+          NodeState& state) noexcept {
+    const RigidMotions rigid(weight, inverse_mass, held, state.position);
+    Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();
+    for (std::size_t i = 0; i < inverse_mass.size(); ++i)
+        if (inverse_mass[i] != 0) {
+            const Vec3 p = weight(i) * state.velocity[i];
+            momentum += p;
+            angular += (state.position[i] - rigid.pivot()).cross(p);
+        }
+    const RigidMotions::Motion motion = rigid.of(momentum, angular);
+    for (std::size_t i = 0; i < inverse_mass.size(); ++i)
+        if (inverse_mass[i] != 0)
+            state.velocity[i] -=
+                loss(i) * (state.velocity[i] - rigid.at(motion, state.position[i]));
 }
 
 } // namespace
 
 void damp_deformation(std::span<const double> mass, std::span<const double> inverse_mass,
-                      std::size_t held, std::span<const double> alpha, double dt,
+                      std::span<const int> held, std::span<const double> alpha, double dt,
                       NodeState& state) noexcept {
-    const double uniform = -std::expm1(-alpha[0] * dt);
-    const bool by_node = alpha.size() > 1;
-    const auto loss = [&](std::size_t i) {
-        return by_node ? -std::expm1(-alpha[i] * dt) : uniform;
-    };
-    RigidFit rigid;
-    if (held < 3)
-        rigid = by_node ? fit([&](std::size_t i) { return mass[i] * loss(i); }, inverse_mass, state)
-                        : fit([&](std::size_t i) { return mass[i]; }, inverse_mass, state);
-    for (std::size_t i = 0; i < mass.size(); ++i)
-        if (inverse_mass[i] != 0)
-            state.velocity[i] -= loss(i) * (state.velocity[i] - rigid.at(state.position[i]));
+    if (alpha.size() == 1) {
+        const double loss = -std::expm1(-alpha[0] * dt);
+        damp([&](std::size_t i) { return mass[i]; }, [&](std::size_t) { return loss; },
+             inverse_mass, held, state);
+        return;
+    }
+    const auto loss = [&](std::size_t i) { return -std::expm1(-alpha[i] * dt); };
+    damp([&](std::size_t i) { return mass[i] * loss(i); }, loss, inverse_mass, held, state);
 }
 
 } // namespace ode::soft

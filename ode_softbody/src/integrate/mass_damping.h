@@ -11,13 +11,13 @@ namespace ode::soft {
 /// Where the rate differs from node to node, the rigid motion is the one that the momentum lost
 /// would give: what is taken sums to no force and no torque.
 ///
-/// A body held at three nodes or more has no rigid motion: it decays towards rest.
-/// @param held  nodes of inverse mass 0 keep their velocity; how many there are.
+/// Held nodes take rigid motions away (RigidMotions): a body held at three decays towards rest.
+/// @param held  the nodes of inverse mass 0, which keep their velocity.
 /// @param alpha [1/s], one for all nodes or one a node.
 /// @param dt    time since the last call [s]. The decay is slow (alpha is a few per second), so
 ///              that a call every few substeps costs nothing and changes nothing.
 void damp_deformation(std::span<const double> mass, std::span<const double> inverse_mass,
-                      std::size_t held, std::span<const double> alpha, double dt,
+                      std::span<const int> held, std::span<const double> alpha, double dt,
                       NodeState& state) noexcept;
 
 } // namespace ode::soft

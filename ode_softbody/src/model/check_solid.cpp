@@ -22,6 +22,8 @@ void check_solid(const Solid& s, const std::string& group) {
     require(s.psi >= 0, "viscosity psi", s.psi, " Pa s", "not be negative");
     require(s.alpha >= 0, "damping alpha", s.alpha, " 1/s", "not be negative");
     require(s.beta >= 0, "damping beta", s.beta, " s", "not be negative");
+    require(s.loss_factor >= 0 && s.loss_factor < 1, "loss factor", s.loss_factor, "",
+            "lie between 0 and 1, such as 2e-4 for steel");
 }
 
 } // namespace ode::soft

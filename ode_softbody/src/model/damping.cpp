@@ -5,14 +5,6 @@
 #include <algorithm>
 
 namespace ode::soft {
-namespace {
-
-void require_not_negative(double value, const char* what) {
-    if (!(value >= 0) || !std::isfinite(value))
-        throw InputError(format("%s is %g: it must be zero or positive", what, value));
-}
-
-} // namespace
 
 RayleighDamping rayleigh_through(double f1, double t60_1, double f2, double t60_2) {
     for (const double v : {f1, t60_1, f2, t60_2})
@@ -32,33 +24,33 @@ RayleighDamping rayleigh_through(double f1, double t60_1, double f2, double t60_
     return out;
 }
 
-std::vector<double> Damping::decays(std::span<const double> frequency) const {
-    std::vector<double> out;
-    out.reserve(frequency.size());
-    switch (law) {
-    case Law::kRayleigh:
-        require_not_negative(rayleigh.alpha, "mass-proportional damping alpha [1/s]");
-        require_not_negative(rayleigh.beta, "stiffness-proportional damping beta [s]");
-        for (const double f : frequency)
-            out.push_back(rayleigh.decay(f));
-        break;
-    case Law::kLossFactor:
-        require_not_negative(loss_factor, "the loss factor");
-        for (const double f : frequency)
-            out.push_back(decay_of_loss_factor(loss_factor, f));
-        break;
-    case Law::kTable:
-        if (t60.empty())
-            throw InputError("the table of decay times is empty: give T60 in seconds for one mode "
-                             "at least");
-        for (std::size_t i = 0; i < t60.size(); ++i)
-            if (!(t60[i] > 0))
-                throw InputError(format("T60 of mode %zu is %g s: it must be positive", i, t60[i]));
-        for (std::size_t i = 0; i < frequency.size(); ++i)
-            out.push_back(decay_of_t60(t60[std::min(i, t60.size() - 1)]));
-        break;
+DampingTable::DampingTable(std::span<const double> frequency, std::span<const double> t60)
+    : frequency_(frequency.begin(), frequency.end()) {
+    for (std::size_t i = 0; i < frequency.size(); ++i) {
+        if (!(frequency[i] > 0 && std::isfinite(frequency[i]) && t60[i] > 0 &&
+              std::isfinite(t60[i])))
+            throw InputError(
+                format("entry %zu of the damping table is T60 %g s at %g Hz: both must "
+                       "be positive and finite",
+                       i, t60[i], frequency[i]));
+        if (i > 0 && !(frequency[i] > frequency[i - 1]))
+            throw InputError(format("entry %zu of the damping table, %g Hz, doesn't lie above the "
+                                    "one before, %g Hz: sort them by frequency",
+                                    i, frequency[i], frequency[i - 1]));
+        decay_.push_back(decay_of_t60(t60[i]));
     }
-    return out;
+}
+
+double DampingTable::decay(double f) const noexcept {
+    const auto above = std::upper_bound(frequency_.begin(), frequency_.end(), f);
+    if (above == frequency_.begin())
+        return decay_.front();
+    if (above == frequency_.end())
+        return decay_.back();
+    const auto i = static_cast<std::size_t>(above - frequency_.begin());
+    const double share =
+        std::log(f / frequency_[i - 1]) / std::log(frequency_[i] / frequency_[i - 1]);
+    return decay_[i - 1] * std::pow(decay_[i] / decay_[i - 1], share);
 }
 
 } // namespace ode::soft

@@ -39,22 +39,22 @@ struct RayleighDamping {
 /// 0 give it: d may grow with frequency at most by its square, and must not fall.
 RayleighDamping rayleigh_through(double f1, double t60_1, double f2, double t60_2);
 
-/// Damping of a modal body, by one of three laws.
-struct Damping {
-    enum class Law {
-        kRayleigh,   ///< `rayleigh`
-        kLossFactor, ///< `loss_factor` at all frequencies: material damping of metals, glass, wood
-        kTable,      ///< `t60` mode by mode
-    };
-    Law law = Law::kRayleigh;
-    RayleighDamping rayleigh;
-    double loss_factor = 0;  ///< [-]
-    std::vector<double> t60; ///< [s]; modes beyond the table take its last entry
+/// Decay times as measured, in place of what the material says. Between two entries the decay rate
+/// is a power of the frequency, so that two describe a loss factor exactly; beyond the first and
+/// the last it stays theirs.
+class DampingTable {
+public:
+    DampingTable() = default;
+    /// @param frequency  ascending [Hz]
+    /// @param t60        of each [s]
+    /// @throws InputError naming the entry that isn't positive and finite, or out of order
+    DampingTable(std::span<const double> frequency, std::span<const double> t60);
 
-    /// Decay rate of each mode [1/s].
-    /// @throws InputError for a negative or not finite parameter, an empty table or an entry that
-    /// isn't positive (infinite is allowed: undamped).
-    std::vector<double> decays(std::span<const double> frequency) const;
+    bool empty() const noexcept { return frequency_.empty(); }
+    double decay(double f) const noexcept; ///< [1/s]; of a table that isn't empty
+
+private:
+    std::vector<double> frequency_, decay_;
 };
 
 } // namespace ode::soft

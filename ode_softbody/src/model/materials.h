@@ -11,7 +11,7 @@ namespace ode::soft {
 struct Material {
     const char* name;
     Solid solid;
-    const char* source; ///< of the numbers
+    const char* source; ///< of the constants and of the damping
 };
 
 /// All presets, in a fixed order.

@@ -2,7 +2,7 @@
 
 namespace ode::soft {
 
-/// Isotropic solid with Kelvin-Voigt and mass-proportional damping.
+/// Isotropic solid with Kelvin-Voigt and mass-proportional damping and a loss factor, which add up.
 struct Solid {
     double young = 0;   ///< E [Pa]
     double poisson = 0; ///< nu [-]
@@ -12,6 +12,7 @@ struct Solid {
     double alpha = 0;   ///< mass-proportional damping [1/s]
     double beta =
         0; ///< stiffness-proportional damping [s]; adds beta*lambda to phi, beta*mu to psi
+    double loss_factor = 0; ///< eta at all frequencies [-]: only modes can have it, no stress
 
     /// First Lame parameter [Pa].
     double lambda() const noexcept { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }

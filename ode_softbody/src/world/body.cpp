@@ -109,6 +109,7 @@ void Body::hold(int node) noexcept {
     if (inverse_mass_[i] == 0)
         return;
     inverse_mass_[i] = 0;
+    modes_stale_ = true;
     state_.velocity[i].setZero();
     pinned_.insert(std::lower_bound(pinned_.begin(), pinned_.end(), node), node);
 }
@@ -137,6 +138,7 @@ void Body::each_middle(Visit visit) const {
 std::vector<int> Body::nail(std::span<const int> nodes) {
     std::vector<std::uint8_t> taken(mesh_.node.size());
     std::vector<int> all;
+    modes_stale_ = true;
     const auto take = [&](int node) {
         if (is_held(node))
             return;
@@ -157,6 +159,7 @@ std::vector<int> Body::nail(std::span<const int> nodes) {
 void Body::release(int node) noexcept {
     const auto i = static_cast<std::size_t>(node);
     inverse_mass_[i] = 1 / mass()[i];
+    modes_stale_ = true;
     std::erase(nailed_, node);
 }
 
@@ -180,6 +183,8 @@ void Body::add_force(int node, const Vec3& force) noexcept {
 
 void Body::begin_step() noexcept {
     stepped_ = true;
+    if (damped_by_modes_ && modes_stale_)
+        find_damped_modes();
     checkpoint_ = state_;
     checkpoint_dt_ = last_dt_;
     extremes_ = {};
@@ -243,11 +248,13 @@ void Body::note(const StrainExtremes& now) noexcept {
 
 void Body::advance(double dt) noexcept {
     note(integrator_->step(*model_, NodeInertia{inverse_mass_}, dt, state_, force_));
+    if (modal_damping_)
+        modal_damping_->advance(dt, state_);
     if (max_alpha_ == 0)
         return;
     undamped_ += dt;
     if (undamped_ >= std::min(kDampingInterval * dt, kDampingLoss / max_alpha_)) {
-        damp_deformation(mass(), inverse_mass_, pinned_.size(), alpha_, undamped_, state_);
+        damp_deformation(mass(), inverse_mass_, pinned_, alpha_, undamped_, state_);
         undamped_ = 0;
     }
 }

@@ -7,6 +7,8 @@
 #include "mesh/curve.h"
 #include "mesh/surface.h"
 #include "mesh/tet_mesh.h"
+#include "modal/modal_damping.h"
+#include "model/damping.h"
 #include "model/elastic_model.h"
 #include "model/solid.h"
 #include "world/rigid_pairs.h"
@@ -26,6 +28,8 @@ struct BodyForm {
     int order = 1;              ///< of its elements
     std::string model = "stvk"; ///< one of model_names()
     bool curved = false;        ///< curve_surface() on the promoted mesh
+    bool modal_damping = false; ///< ModalDamping instead of viscous stress
+    DampingTable damping_table; ///< unless empty: instead of the solids' damping; modal
 };
 
 /// A soft body: a meshed solid, its motion, its surface and its geom in ODE's space.
@@ -84,6 +88,10 @@ public:
     void unpin() noexcept;
     std::span<const int> pinned() const noexcept { return pinned_; } ///< ascending
 
+    /// Whether modes damp the body: asked for, or the only way to a loss factor or a table.
+    bool damped_by_modes() const noexcept { return damped_by_modes_; }
+    bool has_loss_factor() const noexcept; ///< of any of its solids
+
     /// Adds to the forces of the next step [N].
     void add_force(int node, const Vec3& force) noexcept;
 
@@ -110,7 +118,7 @@ private:
     friend class RigidExchange;
 
     /// Takes over a mesh that has the nodes of the body's own first. @throws InputError
-    void build(TetMesh mesh, const std::string& model);
+    void build(TetMesh mesh, const std::string& model, bool damped_by_modes);
     void hold(int node) noexcept;
     bool is_held(int node) const noexcept { ///< pinned or nailed
         return inverse_mass_[static_cast<std::size_t>(node)] == 0;
@@ -132,7 +140,8 @@ private:
     int on_ray(dGeomID ray, int flags, dContactGeom* contact, int skip) noexcept override;
     void on_destroyed() noexcept override;
 
-    void begin_step() noexcept; ///< remembers the state to return to
+    void begin_step() noexcept;        ///< remembers the state to return to
+    void find_damped_modes() noexcept; ///< of the body as it is held now
     /// Brings the velocity to half of `dt` before the positions' time, where the integrator keeps
     /// it.
     void fit_velocity(double dt) noexcept;
@@ -168,6 +177,9 @@ private:
     bool has_external_ = false;
     std::vector<double> alpha_; ///< mass-proportional damping, one for all or one a node [1/s]
     double max_alpha_;
+    bool damped_by_modes_ = false;
+    bool modes_stale_ = false; ///< modal_damping_ is of other supports, or none yet
+    std::unique_ptr<ModalDamping> modal_damping_;
     std::vector<double> inverse_mass_; ///< [1/kg], 0: held
     std::vector<int> pinned_;
     std::vector<int> nailed_;

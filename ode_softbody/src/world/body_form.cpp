@@ -79,7 +79,7 @@ Body::Body(SoftWorld& world, const TetMesh& mesh, std::span<const Solid> solids)
         rest.position[i] = mesh.node[i];
     state_ = std::move(rest);
     external_ = NodeArray(given_nodes_);
-    build(std::move(own), form_.model);
+    build(std::move(own), form_.model, has_loss_factor());
     geom_ = create_soft_geom(world.space(), *this);
 }
 
@@ -101,20 +101,25 @@ CurveReport Body::set_form(const BodyForm& form) {
     if (form.curved && given_order_ == 2)
         throw InputError("the body's mesh has mid-edge nodes of its own, which tell its curvature; "
                          "only a linear mesh can be curved");
+    const bool by_modes = form.modal_damping || has_loss_factor() || !form.damping_table.empty();
     TetMesh mesh =
         given_order_ == 2 || mesh_.order == 1 ? mesh_ : demote_to_linear(mesh_, given_nodes_);
     if (form.order == 2)
         mesh = promote_to_quadratic(mesh);
     const CurveReport report = form.curved ? curve_surface(mesh) : CurveReport{};
-    build(std::move(mesh), form.model);
+    build(std::move(mesh), form.model, by_modes);
     form_ = form;
     moved();
     return report;
 }
 
-void Body::build(TetMesh mesh, const std::string& model_name) {
+void Body::build(TetMesh mesh, const std::string& model_name, bool damped_by_modes) {
     Surface surface = extract_surface(mesh);
-    auto model = make_model(model_name, mesh, solids_);
+    std::vector<Solid> solids = solids_;
+    if (damped_by_modes)
+        for (Solid& s : solids)
+            s.phi = s.psi = s.alpha = s.beta = 0;
+    auto model = make_model(model_name, mesh, solids);
     const auto least = std::min_element(model->mass().begin(), model->mass().end());
     if (!(*least > 0))
         throw InputError(
@@ -128,9 +133,9 @@ void Body::build(TetMesh mesh, const std::string& model_name) {
         external[i] = external_[i];
     SurfaceNodes contact_nodes(mesh, surface, model->mass());
     max_alpha_ = 0;
-    for (const Solid& solid : solids_)
+    for (const Solid& solid : solids)
         max_alpha_ = std::max(max_alpha_, solid.alpha);
-    alpha_ = nodal_alpha(mesh, solids_, model->mass(), max_alpha_);
+    alpha_ = nodal_alpha(mesh, solids, model->mass(), max_alpha_);
 
     mesh_ = std::move(mesh);
     surface_ = std::move(surface);
@@ -150,12 +155,15 @@ void Body::build(TetMesh mesh, const std::string& model_name) {
                    [](double m) { return 1 / m; });
     pinned_.clear();
     double viscous = 0;
-    for (const Solid& solid : solids_)
+    for (const Solid& solid : solids)
         viscous = std::max(viscous, viscous_time(solid));
     // Unpinned: a bound for whatever is held later.
     critical_step_ = ode::soft::critical_step(*model_, inverse_mass_, state_.position, viscous);
     pin(pinned);
     use_default_substep();
+    damped_by_modes_ = damped_by_modes;
+    modal_damping_.reset();
+    modes_stale_ = true;
 }
 
 } // namespace ode::soft

@@ -14,6 +14,7 @@ struct Cloud {
     NodeState state{NodeArray(kNodes), NodeArray(kNodes)};
     std::vector<double> mass;
     std::vector<double> inverse_mass;
+    std::vector<int> held;
 
     Cloud() {
         for (std::size_t i = 0; i < kNodes; ++i) {
@@ -29,8 +30,13 @@ struct Cloud {
             state.velocity[i] = velocity + spin.cross(state.position[i]);
     }
 
-    void damp(std::size_t held, double alpha, double dt) {
+    void damp(double alpha, double dt) {
         damp_deformation(mass, inverse_mass, held, {&alpha, 1}, dt, state);
+    }
+    void hold(int node) {
+        held.push_back(node);
+        inverse_mass[static_cast<std::size_t>(node)] = 0;
+        state.velocity[static_cast<std::size_t>(node)].setZero();
     }
 
     Vec3 momentum() const {
@@ -53,7 +59,7 @@ TEST(MassDamping, LeavesRigidMotionAlone) {
     Cloud cloud;
     cloud.move_rigidly({1, -2, 3}, {4, 5, -6});
     const NodeArray before = cloud.state.velocity;
-    cloud.damp(0, 5, 0.1);
+    cloud.damp(5, 0.1);
     for (std::size_t i = 0; i < kNodes; ++i)
         EXPECT_NEAR((cloud.state.velocity[i] - before[i]).norm(), 0, kRounding) << i;
 }
@@ -69,9 +75,9 @@ TEST(MassDamping, KeepsMomentaWhileDeformationDecaysByTheExponential) {
     }
     const Vec3 p = other.momentum(), l = other.angular_momentum();
     Cloud stripped = other;
-    stripped.damp(0, 1e9, 1); // no deformation is left: the rigid fit
+    stripped.damp(1e9, 1); // no deformation is left: the rigid fit
     Cloud damped = other;
-    damped.damp(0, 5, 0.1);
+    damped.damp(5, 0.1);
     EXPECT_NEAR((damped.momentum() - p).norm(), 0, 10 * kRounding);
     EXPECT_NEAR((damped.angular_momentum() - l).norm(), 0, 10 * kRounding);
     for (std::size_t i = 0; i < kNodes; ++i) {
@@ -91,7 +97,7 @@ TEST(MassDamping, RatesThatDifferFromNodeToNodeKeepMomentaToo) {
         alpha.push_back(i < 2 ? 0 : 3 * t);
     }
     const Cloud before = cloud;
-    damp_deformation(cloud.mass, cloud.inverse_mass, 0, alpha, 0.1, cloud.state);
+    damp_deformation(cloud.mass, cloud.inverse_mass, {}, alpha, 0.1, cloud.state);
     EXPECT_NEAR((cloud.momentum() - before.momentum()).norm(), 0, 10 * kRounding);
     EXPECT_NEAR((cloud.angular_momentum() - before.angular_momentum()).norm(), 0, 10 * kRounding);
     for (std::size_t i = 0; i < kNodes; ++i) {
@@ -103,12 +109,43 @@ TEST(MassDamping, RatesThatDifferFromNodeToNodeKeepMomentaToo) {
 TEST(MassDamping, ABodyHeldFastDecaysTowardsRest) {
     Cloud cloud;
     cloud.move_rigidly({1, -2, 3}, {4, 5, -6});
-    cloud.inverse_mass[0] = cloud.inverse_mass[3] = cloud.inverse_mass[6] = 0;
+    for (const int node : {0, 3, 6})
+        cloud.hold(node);
     const NodeArray before = cloud.state.velocity;
-    cloud.damp(3, 5, 0.1);
+    cloud.damp(5, 0.1);
     for (std::size_t i = 0; i < kNodes; ++i) {
         const double left = cloud.inverse_mass[i] == 0 ? 1 : std::exp(-0.5);
         EXPECT_NEAR((cloud.state.velocity[i] - left * before[i]).norm(), 0, kRounding) << i;
+    }
+}
+
+// Hung at a node it swings on; hung at two it swings about their line; and what isn't swinging, the
+// bounce of the whole on its hook among it, decays.
+TEST(MassDamping, ABodyThatHangsSwingsOnButDoesNotBounce) {
+    for (const std::size_t hooks : {1u, 2u}) {
+        Cloud swinging;
+        const Vec3 pivot = swinging.state.position[2];
+        const Vec3 spin = hooks == 1 ? Vec3(4, 5, -6) : Vec3(swinging.state.position[5] - pivot);
+        swinging.move_rigidly(-spin.cross(pivot), spin);
+        swinging.hold(2);
+        if (hooks == 2)
+            swinging.hold(5);
+        const NodeArray before = swinging.state.velocity;
+        swinging.damp(5, 0.1);
+        for (std::size_t i = 0; i < kNodes; ++i)
+            EXPECT_NEAR((swinging.state.velocity[i] - before[i]).norm(), 0, 10 * kRounding) << i;
+
+        Cloud bouncing = swinging;
+        double energy[2] = {0, 0};
+        for (std::size_t i = 0; i < kNodes; ++i)
+            if (bouncing.inverse_mass[i] > 0)
+                bouncing.state.velocity[i] = bouncing.state.position[i] - pivot; // no spin in it
+        for (double& e : energy) {
+            for (std::size_t i = 0; i < kNodes; ++i)
+                e += bouncing.mass[i] * bouncing.state.velocity[i].squaredNorm();
+            bouncing.damp(5, 0.1);
+        }
+        EXPECT_NEAR(energy[1], std::exp(-1.0) * energy[0], 1e-12 * energy[0]);
     }
 }
 

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <ode/error.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -145,6 +147,45 @@ TEST_F(Cache, SurvivesTwoWritersAtOnce) {
     expect_equal(get(), models[0]);
     EXPECT_EQ(heard, "");
     EXPECT_EQ(std::distance(fs::directory_iterator(directory_), {}), 1);
+}
+
+// Processes share no lock: four start at once on an empty cache, on one with a damaged file, and on
+// a good one. Each gets the whole model, and one good file is left.
+TEST_F(Cache, IsSafeBetweenProcesses) {
+    options_.progress = {};
+    const ModalModel expected = solve_modes(mesh_, std::span(&solid_, 1), options_);
+    for (const char* start : {"empty", "damaged", "good"}) {
+        if (std::string(start) == "damaged")
+            fs::resize_file(file(), fs::file_size(file()) / 2);
+        int gate[2];
+        ASSERT_EQ(pipe(gate), 0);
+        std::vector<pid_t> children;
+        for (int n = 0; n < 4; ++n) {
+            const pid_t child = fork();
+            ASSERT_GE(child, 0);
+            if (child == 0) {
+                dSetMessageHandler([](int, const char*, va_list) {});
+                close(gate[1]);
+                char byte;
+                (void)!read(gate[0], &byte, 1); // until the parent opens it to all
+                const ModalModel got =
+                    cached_modes(mesh_, std::span(&solid_, 1), options_, directory_);
+                _exit(got.frequency == expected.frequency && got.shape == expected.shape ? 0 : 1);
+            }
+            children.push_back(child);
+        }
+        close(gate[0]);
+        close(gate[1]);
+        for (const pid_t child : children) {
+            int status = -1;
+            EXPECT_EQ(waitpid(child, &status, 0), child);
+            EXPECT_EQ(status, 0) << start;
+        }
+        EXPECT_EQ(std::distance(fs::directory_iterator(directory_), {}), 1) << start;
+        heard.clear();
+        expect_equal(get(), expected);
+        EXPECT_EQ(heard, "") << start << ": the file that is left must be good";
+    }
 }
 
 TEST_F(Cache, DoesWithoutADirectoryThatCannotBeWritten) {

@@ -50,38 +50,35 @@ TEST(Damping, RayleighGoesThroughTwoDecayTimes) {
     refused(200, 0.0, 4000, 0.3);
 }
 
-TEST(Damping, EachLawGivesEachModeItsDecay) {
-    const std::vector<double> f{100, 200, 400};
-    Damping damping;
-    damping.rayleigh = {.alpha = 2, .beta = 1e-6};
-    EXPECT_NEAR(damping.decays(f)[2], 1 + 0.5e-6 * std::pow(800 * std::numbers::pi, 2), 1e-12);
-    damping.law = Damping::Law::kLossFactor;
-    damping.loss_factor = 0.01;
-    EXPECT_NEAR(damping.decays(f)[1], std::numbers::pi * 2, 1e-12);
-    damping.law = Damping::Law::kTable;
-    damping.t60 = {3, 1.5};
-    const auto d = damping.decays(f);
-    EXPECT_NEAR(t60_of_decay(d[0]), 3, 1e-12);
-    EXPECT_NEAR(t60_of_decay(d[1]), 1.5, 1e-12);
-    EXPECT_EQ(d[2], d[1]);
-    damping.t60 = {HUGE_VAL};
-    EXPECT_EQ(damping.decays(f)[0], 0);
+TEST(DampingTable, GoesThroughItsEntriesByPowersAndStaysBeyondThem) {
+    const DampingTable table(std::vector{100.0, 400.0, 1000.0}, std::vector{4.0, 1.0, 2.0});
+    EXPECT_NEAR(t60_of_decay(table.decay(100)), 4, 1e-12);
+    EXPECT_NEAR(t60_of_decay(table.decay(400)), 1, 1e-12);
+    EXPECT_NEAR(t60_of_decay(table.decay(1000)), 2, 1e-12);
+    EXPECT_NEAR(t60_of_decay(table.decay(50)), 4, 1e-12);
+    EXPECT_NEAR(t60_of_decay(table.decay(9e9)), 2, 1e-12);
+    // T60 ~ 1/f from 100 to 400 Hz: a loss factor, at all frequencies between.
+    const double eta = loss_factor_of_decay(table.decay(100), 100);
+    for (const double f : {150.0, 200.0, 390.0})
+        EXPECT_NEAR(loss_factor_of_decay(table.decay(f), f), eta, 1e-13);
+    EXPECT_TRUE(DampingTable().empty());
 }
 
-TEST(Damping, RefusesNonsense) {
-    const std::vector<double> f{100};
-    Damping damping;
-    damping.rayleigh.alpha = -1;
-    EXPECT_THAT([&] { damping.decays(f); },
-                testing::ThrowsMessage<InputError>(testing::HasSubstr("alpha [1/s] is -1")));
-    damping.law = Damping::Law::kLossFactor;
-    damping.loss_factor = std::nan("");
-    EXPECT_THROW(damping.decays(f), InputError);
-    damping.law = Damping::Law::kTable;
-    EXPECT_THROW(damping.decays(f), InputError);
-    damping.t60 = {1, 0};
-    EXPECT_THAT([&] { damping.decays(f); },
-                testing::ThrowsMessage<InputError>(testing::HasSubstr("T60 of mode 1 is 0 s")));
+TEST(DampingTable, RefusesNonsenseByEntry) {
+    const auto refusal = [](std::vector<double> f, std::vector<double> t60) -> std::string {
+        try {
+            DampingTable(f, t60);
+        } catch (const InputError& e) {
+            return e.what();
+        }
+        return "";
+    };
+    using testing::HasSubstr;
+    EXPECT_THAT(refusal({100, 200}, {1, 0}), HasSubstr("entry 1 of the damping table is T60 0 s"));
+    EXPECT_THAT(refusal({100, 200}, {1, HUGE_VAL}), HasSubstr("positive and finite"));
+    EXPECT_THAT(refusal({-1}, {1}), HasSubstr("at -1 Hz"));
+    EXPECT_THAT(refusal({std::nan("")}, {1}), HasSubstr("entry 0"));
+    EXPECT_THAT(refusal({200, 200}, {1, 1}), HasSubstr("200 Hz, doesn't lie above"));
 }
 
 } // namespace
