@@ -79,10 +79,10 @@ TEST_F(Damping, ByModesCostsNothingOfTheSubstep) {
     EXPECT_EQ(dSoftBodyGetModalDamping(by_modes), 0);
     ASSERT_EQ(dSoftBodySetModalDamping(by_modes, 1), 1);
     EXPECT_EQ(dSoftBodyGetModalDamping(by_modes), 1);
-    EXPECT_EQ(dSoftBodyGetSubstep(by_modes), dSoftBodyGetSubstep(none));
+    EXPECT_NEAR(dSoftBodyGetSubstep(by_modes) / dSoftBodyGetSubstep(none), 1, 1e-9);
     EXPECT_LT(dSoftBodyGetSubstep(by_stress), 0.9 * dSoftBodyGetSubstep(none));
     ASSERT_EQ(dSoftBodySetModalDamping(by_modes, 0), 1);
-    EXPECT_EQ(dSoftBodyGetSubstep(by_modes), dSoftBodyGetSubstep(by_stress));
+    EXPECT_NEAR(dSoftBodyGetSubstep(by_modes) / dSoftBodyGetSubstep(by_stress), 1, 1e-9);
 }
 
 TEST_F(Damping, LossFactorAndTableTurnModesOnAndTakeEnergy) {

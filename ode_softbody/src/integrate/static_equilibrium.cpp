@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace ode::soft {
 namespace {
@@ -42,6 +43,8 @@ public:
                 reaction_ = std::max(reaction_, force_[i].norm());
         return r;
     }
+    /// Force that rounding of the positions makes, once there was a direction() [N].
+    double rounding() const { return rounding_; }
     double reaction() const { return reaction_; } ///< largest on a held node, at the last residual
 
     double potential(const VectorXd& load) const {
@@ -68,6 +71,10 @@ public:
                 else if (it.row() == column)
                     diagonal = std::max(diagonal, std::abs(it.value()));
             }
+        double extent = 0;
+        for (std::size_t i = 0; i < position_.size(); ++i)
+            extent = std::max(extent, position_[i].cwiseAbs().maxCoeff());
+        rounding_ = 4 * std::numeric_limits<double>::epsilon() * diagonal * extent;
         if (!analysed_)
             factor_.analyzePattern(k);
         analysed_ = true;
@@ -91,7 +98,7 @@ private:
     std::span<const char> free_;
     NodeArray& position_;
     NodeArray still_, force_;
-    double reaction_ = 0;
+    double reaction_ = 0, rounding_ = 0;
     Eigen::SimplicialLDLT<Sparse> factor_;
     bool analysed_ = false;
 };
@@ -115,7 +122,7 @@ Equilibrium find_equilibrium(const ElasticModel& model, std::span<const char> fr
             const VectorXd r = problem.residual(now);
             const double acting = std::max(scale, problem.reaction());
             out.residual = acting > 0 ? largest(r) / acting : 0;
-            out.converged = out.residual <= options.tolerance;
+            out.converged = largest(r) <= std::max(options.tolerance * acting, problem.rounding());
             if (out.converged || !std::isfinite(out.residual) || i == options.max_iterations)
                 break;
             ++out.iterations;

@@ -9,7 +9,8 @@ namespace ode::soft {
 struct EquilibriumOptions {
     int load_steps = 1;       ///< shares in which the load is put on: more for slender bodies
     int max_iterations = 100; ///< Newton's, in each share
-    double tolerance = 1e-9; ///< largest force left on a node, against the largest load or reaction
+    double tolerance = 1e-9;  ///< largest force left on a node, against the largest load or
+                              ///< reaction; as far as rounding lets
 };
 
 struct Equilibrium {

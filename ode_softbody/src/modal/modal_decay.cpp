@@ -1,5 +1,6 @@
 #include "modal/modal_decay.h"
 
+#include "integrate/rigid_fit.h"
 #include "model/make_model.h"
 
 #include <algorithm>
@@ -32,21 +33,40 @@ public:
             rest_[i] = mesh.node[i];
     }
 
-    /// Shape^T K shape, or ^T M shape, of solids changed by `alter`.
+    /// Shape^T K shape of solids changed by `alter`.
     template <class Alter>
     VectorXd strain(const ModalModel& modes, Alter alter) const {
         const Eigen::SparseMatrix<double> k = altered(alter)->stiffness(rest_);
         return each(modes, [&](const Eigen::Map<const VectorXd>& u) { return u.dot(k * u); });
     }
-    template <class Alter>
-    VectorXd kinetic(const ModalModel& modes, Alter alter) const {
-        const auto model = altered(alter);
+    /// Shape^T M shape, each node's mass weighted by `weight` of its solid (0 to 1), of what moves
+    /// against the rigid motion that mass-proportional damping spares (damp_deformation). Per mass.
+    template <class Weight>
+    VectorXd kinetic(const ModalModel& modes, Weight weight) const {
+        // From 1 up, because no solid weighs nothing.
+        const auto plain = altered([](Solid&) {});
+        const auto heavier = altered([&](Solid& s) { s.density *= 1 + weight(s); });
+        std::vector<double> m(rest_.size());
+        for (std::size_t i = 0; i < m.size(); ++i)
+            m[i] = std::max(0.0, heavier->mass()[i] - plain->mass()[i]);
+        const std::vector<double> all_free(m.size(), 1.0);
+        const RigidMotions rigid([&](std::size_t i) { return m[i]; }, all_free, {}, rest_);
         return each(modes, [&](const Eigen::Map<const VectorXd>& u) {
-            double sum = 0;
-            for (std::size_t i = 0; i < rest_.size(); ++i)
-                sum +=
-                    model->mass()[i] * u.segment<3>(static_cast<Eigen::Index>(3 * i)).squaredNorm();
-            return sum;
+            const auto at = [&](std::size_t i) {
+                return u.segment<3>(static_cast<Eigen::Index>(3 * i));
+            };
+            Vec3 linear = Vec3::Zero(), angular = linear;
+            double whole = 0, sum = 0;
+            for (std::size_t i = 0; i < m.size(); ++i) {
+                linear += m[i] * at(i);
+                angular += m[i] * (rest_[i] - rigid.pivot()).cross(at(i));
+                whole += plain->mass()[i] * at(i).squaredNorm();
+            }
+            const RigidMotions::Motion spared =
+                modes.rigid_modes == 6 ? rigid.of(linear, angular) : RigidMotions::Motion{};
+            for (std::size_t i = 0; i < m.size(); ++i)
+                sum += m[i] * (at(i) - rigid.at(spared, rest_[i])).squaredNorm();
+            return sum / whole;
         });
     }
 
@@ -103,9 +123,7 @@ std::vector<double> modal_decays(const TetMesh& mesh, std::span<const Solid> sol
             return VectorXd(now.cwiseQuotient(before).array() - 1);
         };
         if (alpha > 0)
-            mass_share =
-                grown(shares.kinetic(modes, [&](Solid& s) { s.density *= 1 + s.alpha / alpha; }),
-                      shares.kinetic(modes, [](Solid&) {}));
+            mass_share = shares.kinetic(modes, [&](const Solid& s) { return s.alpha / alpha; });
         if (eta > 0)
             loss_share =
                 grown(shares.strain(modes, [&](Solid& s) { s.young *= 1 + s.loss_factor / eta; }),
