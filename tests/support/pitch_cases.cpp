@@ -1,8 +1,9 @@
 #include "support/pitch_cases.h"
 
 #include "mesh/generate.h"
+#include "mesh/promote.h"
+#include "mesh/refine.h"
 
-#include <map>
 #include <numbers>
 
 namespace ode::soft {
@@ -69,8 +70,11 @@ std::vector<PitchCase> pitch_cases() {
                      {kSteel, {.young = 100e9, .poisson = 0.34, .density = 8500}},
                      {},
                      12000});
-    cases.push_back(
-        {"clamped plate", make_plate(0.3, 0.3, 0.006, 8, 8, 1), {kAluminium}, rim, 4000});
+    cases.push_back({"clamped plate",
+                     promote_to_quadratic(make_plate(0.3, 0.3, 0.006, 8, 8, 1)),
+                     {kAluminium},
+                     rim,
+                     4000});
     cases.push_back({"free plate", make_plate(0.3, 0.25, 0.006, 8, 7, 1), {kSteel}, {}, 4000});
     cases.push_back({"bowl", make_bowl(0.1, 0.005, 1.5708, 6, 20, 1), {kAluminium}, {}, 8000});
     cases.push_back({"tube", make_tube(0.25, 0.015, 0.012, 12, 12, 1), {kSteel}, {}, 14000});
@@ -97,41 +101,8 @@ ModalOptions options_for(const PitchCase& pitch_case, const TetMesh& mesh) {
 }
 
 TetMesh refined(const TetMesh& mesh) {
-    TetMesh out;
-    out.node = mesh.node;
-    out.group_name = mesh.group_name;
-    std::map<std::pair<int, int>, int> mid;
-    for (std::size_t e = 0; e < mesh.element_count(); ++e) {
-        const auto n = mesh.nodes_of(e);
-        int m[6];
-        for (std::size_t k = 0; k < 6; ++k) {
-            const int a = n[static_cast<std::size_t>(kTetEdge[k][0])];
-            const int b = n[static_cast<std::size_t>(kTetEdge[k][1])];
-            const auto [place, fresh] =
-                mid.try_emplace(std::minmax(a, b), static_cast<int>(out.node.size()));
-            if (fresh)
-                out.node.push_back(0.5 * (mesh.node[static_cast<std::size_t>(a)] +
-                                          mesh.node[static_cast<std::size_t>(b)]));
-            m[k] = place->second;
-        }
-        // Four corners, and the octahedron between them cut along 01-23.
-        const int child[8][4] = {{n[0], m[0], m[2], m[3]}, {m[0], n[1], m[1], m[4]},
-                                 {m[2], m[1], n[2], m[5]}, {m[3], m[4], m[5], n[3]},
-                                 {m[0], m[5], m[2], m[3]}, {m[0], m[5], m[3], m[4]},
-                                 {m[0], m[5], m[4], m[1]}, {m[0], m[5], m[1], m[2]}};
-        for (const auto& c : child) {
-            Mat3 edges;
-            for (int k = 0; k < 3; ++k)
-                edges.col(k) = out.node[static_cast<std::size_t>(c[k + 1])] -
-                               out.node[static_cast<std::size_t>(c[0])];
-            const bool flip = edges.determinant() < 0;
-            for (int k = 0; k < 4; ++k)
-                out.element.push_back(c[flip && k > 1 ? 5 - k : k]);
-            if (!mesh.group.empty())
-                out.group.push_back(mesh.group[e]);
-        }
-    }
-    return out;
+    const TetMesh out = refine_uniformly(mesh);
+    return mesh.order == 2 ? promote_to_quadratic(out) : out;
 }
 
 std::vector<double> matched_frequencies(const ModalModel& coarse, const ModalModel& fine) {

@@ -12,19 +12,24 @@ namespace ode::soft {
 /// them.
 struct PitchCase {
     std::string name;
-    TetMesh mesh; ///< linear; its facets are the geometry
+    /// Its facets are the geometry. Quadratic, with straight edges, where an edge from one clamped
+    /// face to another must not count as clamped.
+    TetMesh mesh;
     std::vector<Solid> solids;
     std::function<bool(const Vec3&)> clamped; ///< empty: free
     double max_frequency;                     ///< [Hz] partials are compared up to here
-    std::size_t partials = 16;                ///< the lowest so many
+    std::size_t partials = 10;                ///< the lowest so many
 };
 
+/// The bodies on which the constants of the band (modal/pitch.cpp) were chosen.
 std::vector<PitchCase> pitch_cases();
+/// Bodies on which they are only tested.
+std::vector<PitchCase> held_out_cases();
 
 /// The options of a case, without order.
 ModalOptions options_for(const PitchCase& pitch_case, const TetMesh& mesh);
 
-/// Each tetrahedron cut into eight: same geometry, the old nodes first. Linear meshes.
+/// Each tetrahedron cut into eight: same geometry, the old nodes first.
 TetMesh refined(const TetMesh& mesh);
 
 /// For each mode of `coarse`, the frequency in `fine` of the same shape on the first nodes [Hz],

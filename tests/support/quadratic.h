@@ -2,6 +2,7 @@
 
 #include "mesh/tet_mesh.h"
 #include "modal/dof_map.h"
+#include "modal/lagrange.h"
 
 #include <algorithm>
 #include <array>
@@ -71,8 +72,10 @@ inline std::vector<char> boundary_nodes(const DofMap& map) {
                 for (int j = 1; j < map.order; ++j, ++k)
                     if (a != f && b != f)
                         out[static_cast<std::size_t>(n[k])] = 1;
-            if (map.order == 3)
-                out[static_cast<std::size_t>(n[16 + static_cast<std::size_t>(f)])] = 1;
+            const int inside = lagrange_face_nodes(map.order);
+            for (int j = 0; j < inside; ++j)
+                out[static_cast<std::size_t>(
+                    n[static_cast<std::size_t>(4 + 6 * (map.order - 1) + inside * f + j)])] = 1;
         }
     return out;
 }

@@ -25,35 +25,40 @@ inline std::vector<double> roots(const std::function<double(double)>& f, double 
     return out;
 }
 
-/// Timoshenko's beam of rectangular section (Huang 1961, doi:10.1115/1.3641787): frequency
-/// equations in b with b^2 = rho A L^4 w^2 / (E I). Shear coefficient of Cowper (1966).
+enum class BeamEnds { kFree, kClampedFree };
+
+/// Timoshenko's beam (Huang 1961, doi:10.1115/1.3641787): roots b with b^2 = rho A L^4 w^2 / (E I).
+/// @param r2  (radius of gyration / length)^2
+/// @param s2  r2 E / (k G), k the shear coefficient
+inline std::vector<double> timoshenko_roots(BeamEnds ends, double r2, double s2,
+                                            std::size_t count) {
+    const auto equation = [&](double b) {
+        const double spread = std::sqrt((r2 - s2) * (r2 - s2) + 4 / (b * b));
+        const double alpha = std::sqrt((spread - r2 - s2) / 2) * b;
+        const double beta = std::sqrt((spread + r2 + s2) / 2) * b;
+        const double root = std::sqrt(1 - b * b * r2 * s2);
+        // Divided by cosh(alpha), so that nothing overflows.
+        const double one = 1 / std::cosh(alpha), cosine = std::cos(beta);
+        const double sine = std::tanh(alpha) * std::sin(beta);
+        if (ends == BeamEnds::kFree)
+            return 2 * one - 2 * cosine +
+                   b / root * (b * b * r2 * (r2 - s2) * (r2 - s2) + 3 * r2 - s2) * sine;
+        return 2 * one + (b * b * (r2 - s2) * (r2 - s2) + 2) * cosine - b * (r2 + s2) / root * sine;
+    };
+    return roots(equation, 1.0, 0.25, count);
+}
+
+/// Of rectangular section, with Cowper's shear coefficient (1966, doi:10.1115/1.3625046).
 struct TimoshenkoBar {
     double length, width, thickness; ///< bending along the thickness [m]
     double young, poisson, density;
 
-    enum class Ends { kFree, kClampedFree };
-
-    std::vector<double> frequencies(Ends ends, std::size_t count) const {
+    std::vector<double> frequencies(BeamEnds ends, std::size_t count) const {
         const double inertia = width * std::pow(thickness, 3) / 12, area = width * thickness;
         const double shear = 10 * (1 + poisson) / (12 + 11 * poisson);
         const double r2 = inertia / (area * length * length);
-        const double s2 = r2 * 2 * (1 + poisson) / shear;
-        const auto equation = [&](double b) {
-            const double spread = std::sqrt((r2 - s2) * (r2 - s2) + 4 / (b * b));
-            const double alpha = std::sqrt((spread - r2 - s2) / 2) * b;
-            const double beta = std::sqrt((spread + r2 + s2) / 2) * b;
-            const double root = std::sqrt(1 - b * b * r2 * s2);
-            // Divided by cosh(alpha), so that nothing overflows.
-            const double one = 1 / std::cosh(alpha), cosine = std::cos(beta);
-            const double sine = std::tanh(alpha) * std::sin(beta);
-            if (ends == Ends::kFree)
-                return 2 * one - 2 * cosine +
-                       b / root * (b * b * r2 * (r2 - s2) * (r2 - s2) + 3 * r2 - s2) * sine;
-            return 2 * one + (b * b * (r2 - s2) * (r2 - s2) + 2) * cosine -
-                   b * (r2 + s2) / root * sine;
-        };
         std::vector<double> out;
-        for (const double b : roots(equation, 1.0, 0.25, count))
+        for (const double b : timoshenko_roots(ends, r2, r2 * 2 * (1 + poisson) / shear, count))
             out.push_back(b / (2 * std::numbers::pi * length * length) *
                           std::sqrt(young * inertia / (density * area)));
         return out;

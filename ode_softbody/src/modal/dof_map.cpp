@@ -87,7 +87,9 @@ DofMap number_nodes(const TetMesh& mesh, int order) {
     faces = distinct(std::move(faces));
     const int per_edge = order - 1;
     const int first_face = next + per_edge * static_cast<int>(edges.size());
-    map.position.resize(static_cast<std::size_t>(first_face) + faces.size());
+    const int per_face = lagrange_face_nodes(order);
+    const int first_inner = first_face + per_face * static_cast<int>(faces.size());
+    map.position.resize(static_cast<std::size_t>(first_inner) + (order > 3 ? elements : 0));
     map.element.reserve(elements * static_cast<std::size_t>(map.nodes_per_element));
 
     const auto points = lagrange_points(order);
@@ -105,11 +107,23 @@ DofMap number_nodes(const TetMesh& mesh, int order) {
                     map.element.push_back(base + (a < b ? k : per_edge - 1 - k));
             }
         if (order > 2)
-            for (const auto& [i, j, k] : kTetFace)
-                map.element.push_back(first_face +
-                                      index_of(faces, key_of(n[static_cast<std::size_t>(i)],
-                                                             n[static_cast<std::size_t>(j)],
-                                                             n[static_cast<std::size_t>(k)])));
+            for (const auto& face : kTetFace) {
+                const auto corner_of = [&](std::size_t k) {
+                    return n[static_cast<std::size_t>(face[k])];
+                };
+                const Key key = key_of(corner_of(0), corner_of(1), corner_of(2));
+                const int base = first_face + per_face * index_of(faces, key);
+                for (int k = 0; k < per_face; ++k) // by the rank of the corner that it is nearest
+                    map.element.push_back(
+                        base +
+                        (per_face == 1
+                             ? 0
+                             : static_cast<int>(std::find(key.begin(), key.end(),
+                                                          corner_of(static_cast<std::size_t>(k))) -
+                                                key.begin())));
+            }
+        if (order > 3)
+            map.element.push_back(first_inner + static_cast<int>(e));
         const auto own = map.nodes_of(e);
         for (std::size_t i = 0; i < points.size(); ++i) {
             lagrange_value(mesh.order, points[i], geometry);
@@ -153,12 +167,13 @@ std::vector<char> clamped_nodes(const TetMesh& mesh, const DofMap& map,
             for (int j = 1; j < map.order; ++j, ++k)
                 clamped[static_cast<std::size_t>(own[k])] = edge_held[i];
         }
-        for (std::size_t f = 0; f < 4 && map.order > 2; ++f, ++k) {
+        for (std::size_t f = 0; f < 4 && map.order > 2; ++f) {
             bool all = true;
             for (std::size_t i = 0; i < 6; ++i)
                 if (kTetEdge[i][0] != static_cast<int>(f) && kTetEdge[i][1] != static_cast<int>(f))
                     all = all && edge_held[i];
-            clamped[static_cast<std::size_t>(own[k])] = all;
+            for (int j = 0; j < lagrange_face_nodes(map.order); ++j, ++k)
+                clamped[static_cast<std::size_t>(own[k])] = all;
         }
     }
     return clamped;

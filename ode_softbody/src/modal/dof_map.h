@@ -6,8 +6,8 @@
 
 namespace ode::soft {
 
-/// The nodes of Lagrange elements of order 1, 2 or 3 over a mesh's tetrahedra, numbered without
-/// regard to the order of the mesh itself: corners first, then edges, then faces.
+/// The nodes of Lagrange elements of order 1 to 4 over a mesh's tetrahedra, numbered without
+/// regard to the order of the mesh itself: corners first, then edges, then faces, then insides.
 struct DofMap {
     int order = 2;
     int nodes_per_element = 10;

@@ -14,6 +14,55 @@ namespace {
 /// Derivatives with respect to the four barycentric coordinates, taken as independent.
 using Gradient4 = Eigen::Vector4d;
 
+/// Numerators of the nodes' barycentric coordinates over 4: lagrange_points(4) times 4.
+using Steps = std::array<int, 4>;
+
+std::array<Steps, lagrange_nodes(4)> quartic_steps() {
+    std::array<Steps, lagrange_nodes(4)> out{};
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+        out[n++][i] = 4;
+    const auto at = [](int i) { return static_cast<std::size_t>(i); };
+    for (const auto& edge : kTetEdge)
+        for (int k = 1; k < 4; ++k, ++n) {
+            out[n][at(edge[0])] = 4 - k;
+            out[n][at(edge[1])] = k;
+        }
+    for (const auto& face : kTetFace)
+        for (std::size_t near = 0; near < 3; ++near, ++n)
+            for (std::size_t k = 0; k < 3; ++k)
+                out[n][at(face[k])] = k == near ? 2 : 1;
+    out[n] = {1, 1, 1, 1};
+    return out;
+}
+
+/// Silvester's product: the function of a node with steps s is the product over the corners of
+/// R_s(l), R_s(l) = prod_{j < s} (4 l - j) / (j + 1), which is one at l = s / 4 (Silvester 1969).
+template <class Emit>
+void each_quartic(const Barycentric& l, Emit emit) {
+    static const auto steps = quartic_steps();
+    double r[4][5], slope[4][5];
+    for (int i = 0; i < 4; ++i) {
+        r[i][0] = 1;
+        slope[i][0] = 0;
+        for (int s = 0; s < 4; ++s) {
+            const double factor = (4 * l[i] - s) / (s + 1);
+            r[i][s + 1] = r[i][s] * factor;
+            slope[i][s + 1] = slope[i][s] * factor + r[i][s] * 4 / (s + 1);
+        }
+    }
+    for (const Steps& s : steps) {
+        double value = 1;
+        Gradient4 g = Gradient4::Ones();
+        for (int i = 0; i < 4; ++i) {
+            value *= r[i][s[static_cast<std::size_t>(i)]];
+            for (int k = 0; k < 4; ++k)
+                g[k] *= (k == i ? slope : r)[i][s[static_cast<std::size_t>(i)]];
+        }
+        emit(value, g);
+    }
+}
+
 template <class Emit>
 void each_function(int order, const Barycentric& l, Emit emit) {
     const auto unit = [](int i, double d) {
@@ -33,6 +82,10 @@ void each_function(int order, const Barycentric& l, Emit emit) {
             const int a = edge[0], b = edge[1];
             emit(4 * l[a] * l[b], unit(a, 4 * l[b]) + unit(b, 4 * l[a]));
         }
+        return;
+    }
+    if (order == 4) {
+        each_quartic(l, emit);
         return;
     }
     assert(order == 3);
@@ -100,9 +153,14 @@ std::vector<Barycentric> lagrange_points(int order) {
                 points.push_back(
                     (Barycentric::Unit(edge[0]) * (order - k) + Barycentric::Unit(edge[1]) * k) /
                     order);
-    if (order > 2)
+    if (order == 3)
         for (int face = 0; face < 4; ++face)
             points.push_back((Barycentric::Ones() - Barycentric::Unit(face)) / 3);
+    if (order == 4) {
+        points.clear();
+        for (const Steps& s : quartic_steps())
+            points.push_back(Barycentric(s[0], s[1], s[2], s[3]) / 4);
+    }
     return points;
 }
 

@@ -7,15 +7,19 @@
 
 namespace ode::soft {
 
-/// Lagrange basis of order 1, 2 or 3 on the unit tetrahedron, by barycentric coordinates.
+/// Lagrange basis of order 1 to 4 on the unit tetrahedron, by barycentric coordinates.
 ///
-/// Nodes: the four corners; then of each edge (order of kTetEdge) its one mid node or its two third
-/// points, the one nearer the edge's first corner first; then, for order 3, the centroid of each
-/// face (order of kTetFace). Order 2 is the node order of TetMesh.
+/// Nodes: the four corners; then of each edge (order of kTetEdge) its inner points, those nearer
+/// the edge's first corner first; then of each face (order of kTetFace), for order 3 its centroid,
+/// for order 4 its three inner points, each nearest to one corner, in the face's order; then, for
+/// order 4, the centroid of the element. Order 2 is the node order of TetMesh.
 constexpr int lagrange_nodes(int order) noexcept {
     return (order + 1) * (order + 2) * (order + 3) / 6;
 }
-constexpr int kMaxLagrangeNodes = lagrange_nodes(3);
+/// Of them inside one face.
+constexpr int lagrange_face_nodes(int order) noexcept { return (order - 1) * (order - 2) / 2; }
+constexpr int kMaxOrder = 4;
+constexpr int kMaxLagrangeNodes = lagrange_nodes(kMaxOrder);
 
 using Barycentric = Eigen::Vector4d; ///< sums to one
 

@@ -1,6 +1,7 @@
 #include "modal/modal_problem.h"
 
 #include "base/error.h"
+#include "modal/lagrange.h"
 #include "modal/rigid_motion.h"
 
 #include <algorithm>
@@ -15,9 +16,9 @@ using Eigen::Index;
 void check_options(const TetMesh& mesh, const ModalOptions& options) {
     if (mesh.element_count() == 0)
         throw InputError("the mesh has no tetrahedra: there is nothing to vibrate");
-    if (options.order < 1 || options.order > 3)
+    if (options.order < 1 || options.order > kMaxOrder)
         throw InputError(
-            format("element order %d is not available: take 1, 2 or 3", options.order));
+            format("element order %d is not available: take 1 to %d", options.order, kMaxOrder));
     if (!(options.max_frequency > 0) || !std::isfinite(options.max_frequency))
         throw InputError(format("the highest frequency asked for is %g Hz: it must be positive",
                                 options.max_frequency));

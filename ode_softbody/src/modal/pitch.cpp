@@ -1,6 +1,5 @@
 #include "modal/pitch.h"
 
-#include "base/error.h"
 #include "modal/cubic.h"
 #include "modal/two_level.h"
 
@@ -14,11 +13,33 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Up to here (some three seconds) a direct solution of the fine order costs no more than refine(),
-/// and its count can be verified.
+/// Up to here (some three seconds) the cubic order is factorised, and its count can be verified;
+/// above, it is refined from the quadratic vectors.
 constexpr double kDirectFlops = 20e9;
+/// Up to here (a second) a solution of the order that only judges costs no more than refine().
+constexpr double kDirectJudge = 5e9;
 /// A band is never narrower [cents]: convergence of the eigenvalues and of refine().
 constexpr double kLeastBand = 0.02;
+
+/// From the change d that one order more makes, f_p - f_{p+1}: the answer f_p - shift d and its
+/// band, width |d|. The spaces are nested, so eigenvalues fall towards the truth.
+struct Rule {
+    double shift, width;
+};
+/// Orders 1 and 2 as they are, their bands generous.
+constexpr Rule kPlain{0, 2};
+/// Cubic, judged by quartic. What the quartic order leaves is e4 = g d. With lambda's error as
+/// p^(-4a) at an edge of singularity a (Babuska and Suri 1994, doi:10.1137/1036141): g = 0.8 at a
+/// clamped right-angled edge (a = 0.71), and toward zero where the shape is smooth. Between them,
+/// 0.35 is the answer, and 0.5 to either side its band.
+constexpr Rule kQuartic{1.35, 0.5};
+/// Cubic, judged by quadratic, where the mesh is too large for more: d is f3 - f2, negative. Curves
+/// that were rebuilt cost both orders more than they show.
+constexpr Rule kQuadratic{-0.1, 0.5}, kQuadraticRebuilt{-0.1, 0.7};
+
+/// What a step of refine() may leave of the change (see TwoLevel::solve): of an answer, of what
+/// only judges one.
+constexpr double kAnswered = 0.03, kJudged = 0.1;
 constexpr Index kAtOnce = 32;
 
 /// Modes of two neighbouring orders on one mesh, and how they correspond.
@@ -111,24 +132,46 @@ void keep_first(EigenPairs& pairs, Index count) {
     pairs.vector.conservativeResize(Eigen::NoChange, count);
 }
 
-/// Fine pairs up to `upper` by refinement of the coarse ones.
+/// Fine pairs by refinement of the coarse ones, the last of which are guards.
 EigenPairs refined_pairs(const Transfer& transfer, const ModalProblem& coarse,
-                         const EigenPairs& from, ModalProblem& fine, double upper) {
+                         const EigenPairs& from, ModalProblem& fine, double share_left) {
     const Refined refined =
-        refine(coarse, from, fine, 0.03, [&](double share) { fine.tell("cubic", share); });
+        refine(coarse, from, fine, share_left, [&](double share) { fine.tell("cubic", share); });
     EigenPairs out;
     out.value = refined.value;
     out.vector = expand(transfer, from.vector, refined);
-    const Index inside = (out.value.array() <= upper).count();
-    out.complete = from.complete && inside < out.value.size();
-    keep_first(out, inside);
+    out.complete = from.complete;
     fine.adopt_rigid_modes(coarse);
     return out;
 }
 
-/// Frequencies, bands and how many modes have no partner on the other order (their band is NaN).
+/// Keeps the pairs up to the frequency and number asked for.
+EigenPairs wanted(const EigenPairs& pairs, const ModalOptions& options) {
+    EigenPairs out = pairs;
+    const Index inside = (out.value.array() <= eigenvalue_of(options.max_frequency)).count();
+    out.complete = out.complete && inside < out.value.size();
+    keep_first(out, options.max_modes > 0 ? std::min(inside, static_cast<Index>(options.max_modes))
+                                          : inside);
+    return out;
+}
+
+/// A shape's partner may lie beyond the range asked for. Where it isn't found the mesh is coarse,
+/// and the other order's range is widened, so far.
+constexpr double kFirstReach = 1.2, kReachStep = 1.4, kLastReach = 2.3;
+
+/// Widens the range of a problem, which borrows `out`, with some modes as guards.
+void widen(ModalOptions& out, const ModalOptions& options, double reach) {
+    out.max_frequency = reach * options.max_frequency;
+    if (options.max_modes > 0)
+        out.max_modes = static_cast<std::size_t>(
+                            std::ceil(reach * reach * static_cast<double>(options.max_modes))) +
+                        6;
+}
+
+/// How far an answer is from its partner on the other order decides value and band.
+/// @return how many modes have no partner: their band is NaN.
 std::size_t set_bands(ModalModel& model, const OrderPair& pair, bool coarse_answer,
-                      const VectorXd* facets) {
+                      const Rule& rule, const VectorXd* facets) {
     std::size_t lost = 0;
     model.error_cents.clear();
     for (std::size_t k = 0; k < model.mode_count(); ++k) {
@@ -138,9 +181,9 @@ std::size_t set_bands(ModalModel& model, const OrderPair& pair, bool coarse_answ
                                   ? partner(pair.overlap.row(i).transpose(), pair.fine.value)
                                   : partner(pair.overlap.col(i), pair.coarse.value);
         const double change = std::abs(cents_between(f, other.frequency)) + other.spread;
-        double band = (coarse_answer ? 2 : facets ? 0.7 : 0.5) * change;
-        if (!coarse_answer && std::isfinite(other.frequency))
-            model.frequency[k] = f - 0.1 * (other.frequency - f);
+        double band = rule.width * change;
+        if (std::isfinite(other.frequency))
+            model.frequency[k] = f - rule.shift * (f - other.frequency);
         if (facets)
             band += i < facets->size() ? 0.3 * std::abs((*facets)[i]) : std::nan("");
         lost += !std::isfinite(band);
@@ -149,68 +192,87 @@ std::size_t set_bands(ModalModel& model, const OrderPair& pair, bool coarse_answ
     return lost;
 }
 
+void finish(ModalModel& model) {
+    // No partner even at the last reach: an octave, for want of a measure.
+    for (double& band : model.error_cents)
+        band = std::isfinite(band) ? std::max(band, kLeastBand) : 1200.0;
+    sort_by_frequency(model); // the correction may exchange neighbours
+}
+
+/// The answer on the problem's order, judged by the next one up.
+/// @param own  what the problem borrows
+ModalModel judged_above(ModalProblem& problem, ModalOptions& own, const ModalOptions& options) {
+    ModalOptions high = options;
+    high.order = options.order + 1;
+    high.mass = MassKind::kConsistent;
+    high.verify = false;
+    ModalProblem judge(problem.mesh(), problem.solids(), high);
+    // Refinement starts from an order that is nearly right; linear elements are not.
+    const bool direct = options.order == 1 || judge.factor_flops() <= kDirectJudge;
+    if (!direct)
+        widen(own, options, kFirstReach);
+    const Transfer transfer(problem.map(), problem.held(), judge.map(), judge.held());
+    OrderPair pair;
+    pair.coarse = problem.solve();
+    const EigenPairs answer = wanted(pair.coarse, options);
+    if (!direct)
+        pair.fine = refined_pairs(transfer, problem, pair.coarse, judge, kJudged);
+    pair.coarse = answer;
+    const VectorXd facets =
+        options.rebuilt_curves ? facet_change(problem, answer, options) : VectorXd();
+    for (double reach = kFirstReach;; reach *= kReachStep) {
+        if (direct) {
+            widen(high, options, reach);
+            pair.fine = judge.solve();
+        }
+        fill_overlap(transfer, judge, pair);
+        ModalModel model = problem.model(answer);
+        const std::size_t lost =
+            set_bands(model, pair, true, options.order == 3 ? kQuartic : kPlain,
+                      options.rebuilt_curves ? &facets : nullptr);
+        if (lost > 0 && direct && reach < kLastReach)
+            continue;
+        finish(model);
+        return model;
+    }
+}
+
+/// The cubic answer refined from quadratic vectors, and judged by them.
+ModalModel judged_below(ModalProblem& problem, const ModalOptions& options) {
+    ModalOptions low = options;
+    low.order = 2;
+    low.verify = false;
+    ModalProblem coarse(problem.mesh(), problem.solids(), low);
+    const Transfer transfer(coarse.map(), coarse.held(), problem.map(), problem.held());
+    OrderPair pair;
+    for (double reach = kFirstReach;; reach *= kReachStep) {
+        widen(low, options, reach);
+        pair.coarse = coarse.solve();
+        pair.fine =
+            wanted(refined_pairs(transfer, coarse, pair.coarse, problem, kAnswered), options);
+        fill_overlap(transfer, problem, pair);
+        ModalModel model = problem.model(pair.fine);
+        const VectorXd facets =
+            options.rebuilt_curves ? facet_change(coarse, pair.coarse, low) : VectorXd();
+        const std::size_t lost =
+            set_bands(model, pair, false, options.rebuilt_curves ? kQuadraticRebuilt : kQuadratic,
+                      options.rebuilt_curves ? &facets : nullptr);
+        if (lost > 0 && reach < kLastReach)
+            continue;
+        finish(model);
+        return model;
+    }
+}
+
 } // namespace
 
 ModalModel solve_with_band(const TetMesh& mesh, std::span<const Solid> solids,
                            const ModalOptions& options) {
-    if (options.order > 3) // below, ModalProblem would take it for the cubic order
-        throw InputError(
-            format("element order %d is not available: take 1, 2 or 3", options.order));
-    const bool coarse_answer = options.order < 3;
-    ModalOptions low = options, high = options;
-    low.order = coarse_answer ? options.order : 2;
-    high.order = low.order + 1;
-    high.mass = MassKind::kConsistent;
-    low.verify = options.verify && coarse_answer;
-    high.verify = options.verify && !coarse_answer;
-    ModalProblem coarse(mesh, solids, low), fine(mesh, solids, high);
-    const Transfer transfer(coarse.map(), coarse.held(), fine.map(), fine.held());
-    // Refinement starts from a coarse order that is nearly right; linear elements are not.
-    const bool direct = low.order == 1 || fine.factor_flops() <= kDirectFlops;
-
-    OrderPair pair;
-    if (coarse_answer)
-        pair.coarse = coarse.solve();
-    else if (direct)
-        pair.fine = fine.solve();
-    // The lower order is sharp, so a shape's partner may lie beyond the range asked for. Where it
-    // isn't found the mesh is coarse, and the other order's range is widened.
-    for (double reach = 1.2;; reach *= 1.4) {
-        ModalOptions& wide = coarse_answer && direct ? high : low;
-        wide.max_frequency = reach * options.max_frequency;
-        if (options.max_modes > 0)
-            wide.max_modes = static_cast<std::size_t>(std::ceil(
-                                 reach * reach * static_cast<double>(options.max_modes))) +
-                             6;
-        if (!coarse_answer)
-            pair.coarse = coarse.solve();
-        if (!direct)
-            pair.fine = refined_pairs(transfer, coarse, pair.coarse, fine,
-                                      eigenvalue_of(options.max_frequency));
-        else if (coarse_answer)
-            pair.fine = fine.solve();
-        ModalProblem& problem = coarse_answer ? coarse : fine;
-        EigenPairs& answer = coarse_answer ? pair.coarse : pair.fine;
-        if (options.max_modes > 0)
-            keep_first(answer,
-                       std::min(answer.value.size(), static_cast<Index>(options.max_modes)));
-        fill_overlap(transfer, fine, pair);
-        ModalModel model = problem.model(answer);
-        const VectorXd facets =
-            options.rebuilt_curves
-                ? (direct ? facet_change(problem, answer, coarse_answer ? low : high)
-                          : facet_change(coarse, pair.coarse, low))
-                : VectorXd();
-        const std::size_t lost =
-            set_bands(model, pair, coarse_answer, options.rebuilt_curves ? &facets : nullptr);
-        if (lost > 0 && reach < 2.3 && !(coarse_answer && !direct))
-            continue;
-        // No partner even at 2.3 times the frequency: an octave, for want of a measure.
-        for (double& band : model.error_cents)
-            band = std::isfinite(band) ? std::max(band, kLeastBand) : 1200.0;
-        sort_by_frequency(model); // the correction may exchange neighbours
-        return model;
-    }
+    ModalOptions own = options;
+    ModalProblem problem(mesh, solids, own);
+    if (options.order == 3 && problem.factor_flops() > kDirectFlops)
+        return judged_below(problem, options);
+    return judged_above(problem, own, options);
 }
 
 } // namespace ode::soft

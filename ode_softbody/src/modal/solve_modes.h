@@ -34,13 +34,15 @@ struct ModalOptions {
 
 /// Natural frequencies and shapes of a linear elastic body at rest.
 ///
-/// With an estimate, the same mesh is solved one order apart. The change d of a partial [cents],
-/// plus the spread of neighbours that its shape mixes, tells its error: order 3 gives f3 - 0.1 (f2
-/// - f3) with the band d / 2; order 2 gives f2 with the band 2 d; order 1 gives f1 with the band 2
-/// (f1 - f2), generous. Over 131 partials of nine coarse meshes d / 2 held 98 %, 2 d 99 %.
-/// Curves rebuilt from facets: 0.7 d and 0.3 of what straight facets would change. The band holds
-/// the error of discretisation only: not of the material's constants, nor of a mesh that isn't the
-/// object.
+/// With an estimate, the same mesh is solved one order higher too. The change d of a partial
+/// [cents], plus the spread of neighbours that its shape mixes, tells its error: order 3 gives
+/// f3 - 1.35 (f3 - f4) with the band d / 2; orders 1 and 2 give their own f with the band 2 d.
+/// Where the cubic order is too large to factorise, it is refined from and judged by the quadratic
+/// one: f3 - 0.1 (f2 - f3), band (f2 - f3) / 2, generous. Curves rebuilt from facets add 0.3 of
+/// what straight facets would change. tests/physics/modal/band_test.cpp holds the figures. The band
+/// holds the error of discretisation only: not of the material's constants, nor of a mesh that
+/// isn't the object, nor of a clamp that catches both ends of an edge which it should not (give a
+/// quadratic mesh there: its middles are listed one by one).
 ///
 /// Free motions are known exactly and kept out, so they never leak into the lowest modes; anything
 /// else without strain energy (two parts that touch along an edge) is counted in rigid_modes.

@@ -45,8 +45,11 @@ std::vector<int> nodes_where(const TetMesh& mesh, const std::function<bool(const
     return out;
 }
 
-// A1. A solid's clamp also stops the section from narrowing, which the beam's allows: 6.7 cents on
-// twice as fine a mesh, for each of the flat modes.
+// A1. A solid's clamp also stops the section from narrowing, which the beam's allows: over a length
+// of about the thickness (Saint-Venant) the bar bends as a plate, 1 / (1 - nu^2) = 1.12 times as
+// stiff. A bar whose root stiffens by that share over a length t is shorter to bending by 0.11 t,
+// and f goes as 1 / L^2: 0.11 * 2 * 0.01 / 0.3 of it, 12 cents, is the most to be expected; none,
+// the least.
 TEST(ClosedForm, ClampedBarBendsAsTimoshenkoSays) {
     const TetMesh mesh = make_bar(0.3, 0.02, 0.01, 24, 2, 1);
     ModalOptions options = plain();
@@ -57,18 +60,18 @@ TEST(ClosedForm, ClampedBarBendsAsTimoshenkoSays) {
     const auto flat = frequencies_along(model, 2), edgewise = frequencies_along(model, 1);
     const TimoshenkoBar bar{0.3, 0.02, 0.01, 69e9, 0.33, 2700},
         turned{0.3, 0.01, 0.02, 69e9, 0.33, 2700};
-    const auto expected = bar.frequencies(TimoshenkoBar::Ends::kClampedFree, 4);
-    const auto other = turned.frequencies(TimoshenkoBar::Ends::kClampedFree, 2);
+    const auto expected = bar.frequencies(BeamEnds::kClampedFree, 4);
+    const auto other = turned.frequencies(BeamEnds::kClampedFree, 2);
     ASSERT_GE(flat.size(), 4u);
     ASSERT_GE(edgewise.size(), 2u);
     for (std::size_t i = 0; i < 4; ++i)
-        EXPECT_NEAR(cents(flat[i], expected[i]), 6.7, 3.5) << i;
+        EXPECT_NEAR(cents(flat[i], expected[i]), 6, 6) << i;
     for (std::size_t i = 0; i < 2; ++i)
-        EXPECT_NEAR(cents(edgewise[i], other[i]), 6.7, 5) << i;
+        EXPECT_NEAR(cents(edgewise[i], other[i]), 6, 6) << i;
     // Euler-Bernoulli: b = 1.87510; shear and rotary inertia take less than 0.1 % off here.
     const double euler = 1.87510 * 1.87510 / (2 * std::numbers::pi * 0.09) *
                          std::sqrt(69e9 * 0.01 * 0.01 / 12 / 2700);
-    EXPECT_NEAR(cents(flat[0], euler), 6.7, 3.5);
+    EXPECT_NEAR(cents(flat[0], euler), 6, 6);
 }
 
 // A2. The reference of 574.2 Hz is Timoshenko's.
@@ -79,7 +82,7 @@ TEST(ClosedForm, FreeBarBendsAndStretchesAsItShould) {
     options.max_frequency = 9000;
     const ModalModel model = solve_modes(mesh, std::span(&kSteel, 1), options);
     const TimoshenkoBar bar{0.3, 0.05, 0.01, 200e9, 0.29, 7850};
-    const auto expected = bar.frequencies(TimoshenkoBar::Ends::kFree, 3);
+    const auto expected = bar.frequencies(BeamEnds::kFree, 3);
     EXPECT_NEAR(expected[0], 574.2, 0.3);
     const auto flat = frequencies_along(model, 2);
     ASSERT_GE(flat.size(), 2u);
@@ -130,20 +133,29 @@ TEST(ClosedForm, FreeSquarePlateAgreesWithNafemsFv12) {
 
 // A4. NAFEMS FV52: lower edges held vertically, so three rigid motions stay in the plane. The
 // reference is Mindlin's; in a solid a line support gives way (its compliance is logarithmic in the
-// element size), so these lie 80 to 125 cents lower.
+// element size), so there is no limit to derive a window from. FinEALE's solids give 44.1 and, on a
+// finer mesh, 43.6 for 45.897: below, and falling. That is asserted, and that halving the elements
+// takes off a small step; the amount isn't.
 TEST(ClosedForm, PlateOnItsLowerEdgesIsNearNafemsFv52) {
-    const TetMesh mesh = make_plate(10, 10, 1, 8, 8, 1);
-    ModalOptions options = plain();
-    options.order = 3;
-    options.max_modes = 4;
-    options.rollers[2] = nodes_where(mesh, [](const Vec3& x) {
-        return x.z() < -0.5 + 1e-9 && std::max(std::abs(x.x()), std::abs(x.y())) > 5 - 1e-9;
-    });
-    const ModalModel model = solve_modes(mesh, std::span(&kNafems, 1), options);
-    EXPECT_EQ(model.rigid_modes, 3);
+    const auto frequencies = [](int cells) {
+        const TetMesh mesh = make_plate(10, 10, 1, cells, cells, 1);
+        ModalOptions options = plain();
+        options.order = 3;
+        options.max_modes = 4;
+        options.rollers[2] = nodes_where(mesh, [](const Vec3& x) {
+            return x.z() < -0.5 + 1e-9 && std::max(std::abs(x.x()), std::abs(x.y())) > 5 - 1e-9;
+        });
+        const ModalModel model = solve_modes(mesh, std::span(&kNafems, 1), options);
+        EXPECT_EQ(model.rigid_modes, 3);
+        return model.frequency;
+    };
+    const auto coarse = frequencies(4), fine = frequencies(8);
     const double expected[] = {45.897, 109.44, 109.44, 167.89};
-    for (std::size_t i = 0; i < 4; ++i)
-        EXPECT_NEAR(cents(model.frequency[i], expected[i]), -100, 30) << i;
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_LT(fine[i], coarse[i]) << i;
+        EXPECT_LT(fine[i], expected[i]) << i;
+        EXPECT_GT(fine[i], 0.95 * coarse[i]) << i;
+    }
 }
 
 // The same plate with rollers on its whole edge faces has an exact solution: Rayleigh-Lamb waves

@@ -43,7 +43,7 @@ protected:
     }
 };
 INSTANTIATE_TEST_SUITE_P(OrdersStraightAndCurved, Assembly,
-                         testing::Combine(testing::Values(1, 2, 3), testing::Bool()));
+                         testing::Combine(testing::Values(1, 2, 3, 4), testing::Bool()));
 
 TEST_P(Assembly, StiffnessAndMassAreSymmetricToTheLastBit) {
     const BlockSystem s = system();

@@ -9,7 +9,7 @@ namespace ode::soft {
 namespace {
 
 class Lagrange : public testing::TestWithParam<int> {};
-INSTANTIATE_TEST_SUITE_P(Orders, Lagrange, testing::Values(1, 2, 3));
+INSTANTIATE_TEST_SUITE_P(Orders, Lagrange, testing::Values(1, 2, 3, 4));
 
 TEST_P(Lagrange, IsOneAtItsOwnNodeAndZeroAtTheOthers) {
     const auto points = lagrange_points(GetParam());
@@ -26,7 +26,7 @@ TEST_P(Lagrange, GradientIsTheSlopeOfTheValue) {
     const Barycentric at(0.13, 0.31, 0.37, 0.19);
     Eigen::Matrix3Xd gradient;
     lagrange_gradient(GetParam(), at, gradient);
-    constexpr double h = 1e-6; // central difference of a cubic: error h^2, about 1e-11
+    constexpr double h = 1e-6; // central difference of a quartic: error h^2, about 1e-11
     for (int axis = 0; axis < 3; ++axis) {
         std::array<double, kMaxLagrangeNodes> high{}, low{};
         Barycentric step = Barycentric::Unit(axis + 1) - Barycentric::Unit(0);
