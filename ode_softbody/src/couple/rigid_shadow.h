@@ -1,6 +1,6 @@
 #pragma once
 
-#include "collide/rigid_pose.h"
+#include "couple/mirror_world.h"
 
 #include <ode/objects.h>
 
@@ -11,7 +11,9 @@ enum class RigidRole {
     fixed,      ///< static geometry without a body
     prescribed, ///< kinematic: moves by its velocities, whatever pushes it
     free,       ///< no joints: substepped here; ODE's result is overwritten
-    jointed ///< substepped here as if free; ODE gets the mean contact force and has the last word
+    mirrored,   ///< has joints: substepped as a twin in a MirrorWorld, which writes the result back
+    unheard     ///< bears on rigid bodies by contacts that nobody recorded: substepped here as if
+                ///< free; ODE gets the mean contact force and has the last word
 };
 
 /// A rigid body's state during the substeps of one ODE step, integrated beside the soft bodies with
@@ -25,12 +27,15 @@ enum class RigidRole {
 /// substep before the step's start, and back at the end. Thus, untouched, a free body moves as
 /// under ODE alone, for any number of substeps (orientation: to the order of ODE's own error).
 ///
-/// `jointed` is a fallback and costs accuracy: within a step joints are not felt, so a hinged rod
-/// answers with a wrong effective mass and loses up to 70 % of its impact energy, and a stack of
-/// rigid bodies on a soft one rattles. It never gained energy in trials.
+/// A pile's bodies (free, with recorded contacts between rigid bodies) are `propped`: they may be at
+/// rest, which a shift by gravity alone would turn into a blow. They enter as ODE left them, and go
+/// on from their own state as long as the application leaves them as they were written.
 ///
-/// Per step: construct; per substep: add() any number of times, then advance(); then hand_over(),
-/// ODE's real step, write_back().
+/// `unheard` is a fallback and costs accuracy: within a step the other rigid bodies are not felt, so
+/// a stack on a soft body rattles. It never gained energy in trials.
+///
+/// Per step: construct; per substep: add() any number of times, then advance() (and follow() once
+/// the mirror has advanced); then hand_over(), ODE's real step, write_back().
 class RigidShadow {
 public:
     RigidShadow() = default; ///< fixed
@@ -40,6 +45,16 @@ public:
     /// @param h     length of the step [s].
     /// @param dt    first substep [s].
     RigidShadow(dBodyID body, double h, double dt) noexcept;
+
+    /// Of a jointed body. @param twin  borrowed for the step.
+    RigidShadow(MirroredBody& twin, double h) noexcept;
+
+    /// Of the same body in the step before: how long to linger, what pressed on it when it fell
+    /// asleep.
+    void remember(const RigidShadow& before) noexcept;
+
+    /// Of a body in a pile. @param before  its shadow in the step before, or nullptr.
+    void prop(const RigidShadow* before) noexcept;
 
     dBodyID body() const noexcept { return body_; }
     RigidRole role() const noexcept { return role_; }
@@ -65,25 +80,58 @@ public:
     /// A contact that goes on carries its factor from step to step.
     void set_softening(double factor) noexcept { softening_ = factor; }
 
-    /// Kick by contact and external forces, then drift.
+    /// Kick by contact and external forces, then drift. A mirrored body's twin is told.
     void advance(double dt) noexcept;
+    /// Takes the state of the twin, whose world has advanced.
+    void follow() noexcept;
 
     /// Contact impulse and angular impulse about the moving centre since construction [N s, N m s].
     const Wrench& impulse() const noexcept { return impulse_; }
-    bool touched() const noexcept { return touched_; }
+    bool touched() const noexcept { return touched_; } ///< by a soft body, in this step
+    /// A contact with another rigid body: as add(), but none that ODE is told of.
+    void add_from_rigid(const Wrench& reaction) noexcept;
+
+    bool asleep() const noexcept { return asleep_; }
+    /// A sleeping body whose island has been touched or holds an awake one.
+    void wake() noexcept {
+        asleep_ = false;
+        if (role_ == RigidRole::mirrored)
+            twin_->touched = true;
+    }
+    /// Asleep, and pressed otherwise than when it fell asleep.
+    bool is_roused() const noexcept;
+    /// Whether forces move it at present: it neither sleeps nor is prescribed or fixed.
+    bool moves() const noexcept { return !asleep_ && inverse_mass_ != 0; }
+
+    /// Whether its island has been touched since it came near, and ODE's result is overwritten.
+    bool live() const noexcept { return live_; }
+    double linger() const noexcept { return linger_; }
+    /// @param linger  [s] that it shall stay so though it isn't near.
+    void set_live(double linger) noexcept {
+        live_ = true;
+        linger_ = linger;
+        if (twin_)
+            twin_->live = true;
+    }
 
     /// Before ODE's step: wakes a touched body and gives it the mean contact force.
     void hand_over() noexcept;
-    /// After ODE's step: pose and velocities of a free body that was touched become the shadow's.
+    /// After ODE's step: pose and velocities of a free body that was touched, or is live, become the
+    /// shadow's.
     void write_back() noexcept;
 
 private:
     void kick(const Vec3& force, const Vec3& torque, double dt) noexcept;
     void drift(double dt) noexcept;
     void update_motion() noexcept;
+    void take_impulse(double dt) noexcept;
+    void end_substep() noexcept;
     Vec3 spin_of(const Quat& orientation) const noexcept;
 
+    Vec6 answer(const Wrench& contact) const noexcept; ///< mirrored: acceleration, world frame
+
     dBodyID body_ = nullptr;
+    MirroredBody* twin_ = nullptr;
     RigidRole role_ = RigidRole::fixed;
     RigidMotion motion_;
     double h_ = 0;
@@ -95,7 +143,8 @@ private:
     Vec3 angular_momentum_ = Vec3::Zero(); ///< about the centre, world frame [kg m^2/s]
     Quat orientation_ = Quat::Identity();
     Wrench external_; ///< gravity and the application's
-    Wrench contact_;  ///< of this substep
+    Wrench contact_;    ///< of this substep
+    Wrench from_rigid_; ///< of which by rigid bodies
     Wrench impulse_;
     double last_dt_ = 0;
     double load_ = 0;
@@ -104,6 +153,14 @@ private:
     bool gyroscopic_ = true;
     bool asleep_ = false;
     bool touched_ = false;
+    bool propped_ = false;
+    bool has_rest_ = false;
+    Wrench rest_; ///< mean contact force when it fell asleep
+    bool borne_ = false; ///< some contact bears in this substep
+    bool bore_ = false;  ///< in the last
+    bool live_ = false;
+    double linger_ = 0;
+    TwinState written_; ///< propped: what the application's body was given
 };
 
 } // namespace ode::soft

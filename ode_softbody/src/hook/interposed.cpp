@@ -72,6 +72,16 @@ DSOFT_API int dWorldQuickStep(dWorldID world, dReal h) {
     return step(world, h, real);
 }
 
+// ODE can be told a contact but not asked: soft worlds take note of those between rigid bodies.
+DSOFT_API dJointID dJointCreateContact(dWorldID world, dJointGroupID group,
+                                       const dContact* contact) {
+    static const auto real = next_definition("dJointCreateContact", &dJointCreateContact);
+    const dJointID joint = real(world, group, contact);
+    if (SoftWorld* soft = joint ? find_world(world) : nullptr)
+        soft->note_contact(joint, *contact);
+    return joint;
+}
+
 DSOFT_API void dWorldDestroy(dWorldID world) {
     static const auto real = next_definition("dWorldDestroy", &dWorldDestroy);
     forget_world(world);

@@ -88,6 +88,11 @@ void Attachments::check() noexcept {
     });
 }
 
+void Attachments::announce(RigidExchange& exchange) const {
+    for (const Anchor& anchor : anchor_)
+        exchange.expect(anchor.rigid);
+}
+
 void Attachments::begin_step(RigidExchange& exchange, double h, double dt) noexcept {
     for (Anchor& anchor : anchor_) {
         anchor.shadow = exchange.shadow_of(anchor.rigid, h, dt);

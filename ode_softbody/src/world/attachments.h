@@ -29,6 +29,8 @@ public:
 
     /// Lets go of rigid bodies that have ended, after a sentence.
     void check() noexcept;
+    /// Tells which rigid bodies take part in the step to come.
+    void announce(RigidExchange& exchange) const;
     /// Puts the nodes where they belong, wherever the application has moved their rigid body.
     void begin_step(RigidExchange& exchange, double h, double dt) noexcept;
     /// Once all other forces of the substep are known, before anything moves.

@@ -63,6 +63,9 @@ public:
     ///         this form.
     CurveReport set_form(const BodyForm& form);
 
+    /// A rigid geom is near in this step.
+    void note_pair(dGeomID other) noexcept { on_pair(other); }
+
     const NodeState& state() const noexcept { return state_; }
     std::span<const double> mass() const noexcept { return model_->mass(); } ///< of each node [kg]
 

@@ -7,9 +7,21 @@
 #include <algorithm>
 
 namespace ode::soft {
+namespace {
 
-void RigidExchange::begin_step(std::span<const std::unique_ptr<Body>> bodies, double h, double dt) {
+// How long an island that was touched is substepped though it isn't near [s].
+constexpr double kLinger = 0.1;
+
+} // namespace
+
+void RigidExchange::begin_step(dWorldID world, std::span<const std::unique_ptr<Body>> bodies,
+                               double h, double dt) {
+    if (stepped_) // else this step is tried anew
+        std::swap(shadow_, before_);
+    stepped_ = false;
+    h_ = h;
     shadow_.clear();
+    gather_islands(world, bodies, h, dt);
     for (Contact& contact : contact_)
         contact.current = false;
     for (const std::unique_ptr<Body>& body : bodies) {
@@ -29,6 +41,38 @@ void RigidExchange::begin_step(std::span<const std::unique_ptr<Body>> bodies, do
         }
     }
     std::erase_if(contact_, [](const Contact& contact) { return !contact.current; });
+    meet_rigid(h, dt);
+}
+
+void RigidExchange::gather_islands(dWorldID world, std::span<const std::unique_ptr<Body>> bodies,
+                                   double h, double dt) {
+    islands_.begin_step();
+    for (const std::unique_ptr<Body>& body : bodies) {
+        if (body->stopped())
+            continue;
+        for (const RigidPair& pair : body->rigid_pair_)
+            islands_.reach(dGeomGetBody(pair.geom), record_);
+    }
+    for (const dBodyID body : lingering_)
+        islands_.reach(body, record_);
+    mirror_.begin_step(world, h, dt);
+    for (const RigidIslands::Member& member : islands_.members())
+        if (member.jointed)
+            mirror_.include(member.body, islands_.islands()[member.island].propped);
+    mirror_.build();
+    for (const RigidIslands::Member& member : islands_.members())
+        shadow_of(member.body, h, dt);
+}
+
+void RigidExchange::meet_rigid(double h, double dt) {
+    rigid_.begin_step();
+    for (const RigidIslands::Meeting& meeting : islands_.meetings()) {
+        const std::size_t first = shadow_of(meeting.first, h, dt);
+        const std::size_t second = shadow_of(meeting.second, h, dt);
+        rigid_.meet(*meeting.contact, first, second, shadow_, h, dt);
+    }
+    if (rigid_.size() != 0)
+        rigid_.end_meeting([&](dBodyID body) { return index_of(body); }, shadow_);
 }
 
 ContactTally RigidExchange::add_forces(double dt) noexcept {
@@ -41,15 +85,75 @@ ContactTally RigidExchange::add_forces(double dt) noexcept {
         sum.tests += tally.tests;
         sum.bearing += tally.bearing;
     }
+    if (rigid_.size() != 0)
+        rigid_bearing_ += rigid_.add_forces(shadow_, dt);
     return sum;
 }
 
 void RigidExchange::advance(double dt) noexcept {
+    wake_touched();
     for (RigidShadow& shadow : shadow_)
         shadow.advance(dt);
+    if (mirror_.empty())
+        return;
+    mirror_.advance(dt);
+    for (RigidShadow& shadow : shadow_)
+        shadow.follow();
+}
+
+void RigidExchange::wake_touched() noexcept {
+    for (std::size_t island = 0; island < islands_.islands().size(); ++island) {
+        if (islands_.islands()[island].awake)
+            continue;
+        const auto roused = [&](const RigidIslands::Member& m) {
+            return m.island == island &&
+                   shadow_[static_cast<std::size_t>(index_of(m.body))].is_roused();
+        };
+        const auto members = islands_.members();
+        if (std::none_of(members.begin(), members.end(), roused))
+            continue;
+        islands_.wake(island);
+        for (const RigidIslands::Member& m : members)
+            if (m.island == island)
+                shadow_[static_cast<std::size_t>(index_of(m.body))].wake();
+    }
+}
+
+void RigidExchange::note_awake(dBodyID body) {
+    // Called while shadow_ is still of the step before.
+    const RigidShadow* shadow = find_shadow(body);
+    if (shadow && shadow->linger() > 0)
+        lingering_.push_back(body);
+}
+
+void RigidExchange::enliven_touched() noexcept {
+    for (std::size_t island = 0; island < islands_.islands().size(); ++island) {
+        bool touched = false;
+        bool live = false;
+        double linger = 0;
+        const auto each = [&](auto&& visit) {
+            for (const RigidIslands::Member& m : islands_.members())
+                if (m.island == island)
+                    visit(shadow_[static_cast<std::size_t>(index_of(m.body))], m);
+        };
+        each([&](const RigidShadow& shadow, const RigidIslands::Member&) {
+            touched |= shadow.touched();
+            live |= shadow.touched() || shadow.live();
+            linger = std::max(linger, shadow.linger() - h_);
+        });
+        if (!live)
+            continue;
+        // A body that was touched alone is written back by that alone.
+        each([&](RigidShadow& shadow, const RigidIslands::Member& m) {
+            if (m.jointed || islands_.islands()[island].propped)
+                shadow.set_live(touched ? kLinger : linger);
+        });
+    }
+    lingering_.clear();
 }
 
 void RigidExchange::hand_over() noexcept {
+    enliven_touched();
     for (RigidShadow& shadow : shadow_)
         shadow.hand_over();
 }
@@ -57,18 +161,46 @@ void RigidExchange::hand_over() noexcept {
 void RigidExchange::write_back() noexcept {
     for (RigidShadow& shadow : shadow_)
         shadow.write_back();
+    mirror_.write_back();
+    stepped_ = true;
 }
 
 void RigidExchange::forget(const Body& body) noexcept {
     std::erase_if(contact_, [&](const Contact& contact) { return contact.body == &body; });
 }
 
-std::size_t RigidExchange::shadow_of(dBodyID body, double h, double dt) {
+std::ptrdiff_t RigidExchange::index_of(dBodyID body) const noexcept {
     const auto found = std::find_if(shadow_.begin(), shadow_.end(),
                                     [&](const RigidShadow& s) { return s.body() == body; });
-    if (found != shadow_.end())
-        return static_cast<std::size_t>(found - shadow_.begin());
-    shadow_.emplace_back(body, h, dt);
+    return found == shadow_.end() ? -1 : found - shadow_.begin();
+}
+
+const RigidShadow* RigidExchange::find_shadow(dBodyID body) const noexcept {
+    const std::ptrdiff_t i = index_of(body);
+    return i < 0 ? nullptr : &shadow_[static_cast<std::size_t>(i)];
+}
+
+std::size_t RigidExchange::shadow_of(dBodyID body, double h, double dt) {
+    const std::ptrdiff_t known = index_of(body);
+    if (known >= 0)
+        return static_cast<std::size_t>(known);
+    MirroredBody* twin = body ? mirror_.find(body) : nullptr;
+    RigidShadow& made = twin ? shadow_.emplace_back(*twin, h) : shadow_.emplace_back(body, h, dt);
+    const auto before = std::find_if(before_.begin(), before_.end(),
+                                     [&](const RigidShadow& s) { return body && s.body() == body; });
+    const bool known_before = before != before_.end();
+    if (known_before)
+        made.remember(*before);
+    const auto members = islands_.members();
+    const auto member = std::find_if(members.begin(), members.end(),
+                                     [&](const auto& m) { return m.body == body; });
+    if (member != members.end()) {
+        const RigidIslands::Island& island = islands_.islands()[member->island];
+        if (island.propped && !twin)
+            made.prop(known_before ? &*before : nullptr);
+        if (island.awake && !(made.role() == RigidRole::free && !island.propped))
+            made.wake();
+    }
     return shadow_.size() - 1;
 }
 

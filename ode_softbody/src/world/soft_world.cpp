@@ -1,6 +1,7 @@
 #include "world/soft_world.h"
 
 #include "base/error.h"
+#include "world/rigid_sweep.h"
 
 #include <ode/objects.h>
 
@@ -135,6 +136,7 @@ void SoftWorld::meet(double h) noexcept {
         if (body->geom() && !body->stopped() && dGeomIsEnabled(body->geom()))
             collide_now(body->geom());
     other_spaces_.collide();
+    sweep_rigid(space_, h, body_, exchange_);
     meeting_ = false;
     for (const auto& body : body_)
         choose_pairs(*body, body->pair_, contact_chooser_, said_, body->rigid_pair_);
@@ -152,7 +154,8 @@ bool SoftWorld::advance(double h) noexcept {
     if (all_stopped(body_))
         return true;
     const double first = common_substep(h);
-    exchange_.begin_step(body_, h, first);
+    attachments_.announce(exchange_);
+    exchange_.begin_step(world_, body_, h, first);
     attachments_.begin_step(exchange_, h, first);
     for (const auto& body : body_)
         body->begin_step();

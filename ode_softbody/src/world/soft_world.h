@@ -88,6 +88,13 @@ public:
 
     double last_step() const noexcept { return last_step_; } ///< [s]; 0 before the first
 
+    /// The rigid side of the present step.
+    const RigidExchange& exchange() const noexcept { return exchange_; }
+    /// A contact joint has been made in this world.
+    void note_contact(dJointID joint, const dContact& contact) {
+        exchange_.note_contact(joint, contact);
+    }
+
 private:
     friend class Body;
 

@@ -187,15 +187,15 @@ TEST_F(RigidShadowTest, WakesASleepingBodyOnlyByTouchingIt) {
     }
 }
 
-// ODE gets the mean force and keeps the last word on a jointed body's pose.
-TEST_F(RigidShadowTest, GivesJointedBodiesTheMeanForce) {
+// A jointed body without a mirror: ODE gets the mean force and keeps the last word on its pose.
+TEST_F(RigidShadowTest, GivesUnheardBodiesTheMeanForce) {
     const dBodyID b = body();
     const dJointID slider = dJointCreateSlider(world_, nullptr);
     dJointAttach(slider, b, nullptr);
     dJointSetSliderAxis(slider, 1, 0, 0);
     const double h = 0.01;
     RigidShadow shadow(b, h, h / 10);
-    EXPECT_EQ(shadow.role(), RigidRole::jointed);
+    EXPECT_EQ(shadow.role(), RigidRole::unheard);
     for (int i = 0; i < 10; ++i) {
         shadow.add({Vec3(i < 5 ? 4 : 0, 7, 0), Vec3::Zero()});
         shadow.advance(h / 10);
