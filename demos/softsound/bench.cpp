@@ -35,6 +35,10 @@ void add_bench(CLI::App& app, Common& common) {
         .add_subcommand("pitch", "Cents of the first eight partials, by body, element and mesh; "
                                  "a few minutes")
         ->callback([&common] { common.action = [] { return run_program("pitch"); }; });
+    bench
+        .add_subcommand("coupling", "Soft against rigid bodies: impulse, energy, path, load; "
+                                    "a minute")
+        ->callback([&common] { common.action = [] { return run_program("coupling"); }; });
 }
 
 } // namespace softsound

@@ -103,19 +103,20 @@ void tell_frame(dJointID joint, const JointFrame& f) noexcept {
         tell(dJointSetPistonAnchor, joint, anchor);
         tell(dJointSetPistonAxis, joint, f.axis[0]);
         return;
-    case dJointTypeAMotor:
+    case dJointTypeAMotor: {
+        // Euler angles have references that can't be asked: a motor about the present axes at the
+        // present angles stands in. It never counts as the same, so each step sets it anew.
+        const bool euler = f.mode[1] == dAMotorEuler;
+        constexpr int kEulerRelative[] = {1, 0, 2};
         dJointSetAMotorNumAxes(joint, f.mode[0]);
-        dJointSetAMotorMode(joint, f.mode[1]);
         for (int i = 0; i < f.mode[0]; ++i) {
-            const Vec3& a = f.axis[static_cast<std::size_t>(i)];
-            if (f.mode[1] == dAMotorEuler && i == 1)
-                continue; // follows from the other two
-            dJointSetAMotorAxis(joint, i, f.mode[static_cast<std::size_t>(2 + i)], a.x(), a.y(),
-                                a.z());
-            if (f.mode[1] == dAMotorUser)
-                dJointSetAMotorAngle(joint, i, f.angle[static_cast<std::size_t>(i)]);
+            const auto n = static_cast<std::size_t>(i);
+            dJointSetAMotorAxis(joint, i, euler ? kEulerRelative[i] : f.mode[2 + n], f.axis[n].x(),
+                                f.axis[n].y(), f.axis[n].z());
+            dJointSetAMotorAngle(joint, i, f.angle[n]);
         }
         return;
+    }
     case dJointTypeLMotor:
         dJointSetLMotorNumAxes(joint, f.mode[0]);
         for (int i = 0; i < f.mode[0]; ++i) {
@@ -155,7 +156,7 @@ void tell_frame(dJointID joint, const JointFrame& f) noexcept {
 }
 
 /// Whether setters at zero make a difference: the joint measures an angle or a position.
-bool measures(dJointID joint, const JointFrame& f) noexcept {
+bool measures(dJointID joint) noexcept {
     switch (dJointGetType(joint)) {
     case dJointTypeHinge:
     case dJointTypeSlider:
@@ -166,8 +167,6 @@ bool measures(dJointID joint, const JointFrame& f) noexcept {
     case dJointTypePiston:
     case dJointTypeBall:
         return true;
-    case dJointTypeAMotor:
-        return f.mode[1] == dAMotorEuler;
     default:
         return false;
     }
@@ -185,10 +184,7 @@ void tell_at_zero(dJointID joint, const JointFrame& f, unsigned signs) noexcept 
     const dJointType type = dJointGetType(joint);
     Quat turn = Quat::Identity();
     JointFrame at_zero = f;
-    if (type == dJointTypeAMotor) {
-        turn = reversed ? part(0) * part(1) * part(2) : part(2) * part(1) * part(0);
-        at_zero.axis[reversed ? 2 : 0] = turn * f.axis[reversed ? 2 : 0];
-    } else if (type == dJointTypeUniversal || type == dJointTypePU || type == dJointTypeHinge2) {
+    if (type == dJointTypeUniversal || type == dJointTypePU || type == dJointTypeHinge2) {
         turn = reversed ? part(0) * part(1) : part(1) * part(0);
         at_zero.axis[reversed ? 1 : 0] = turn * f.axis[reversed ? 1 : 0];
     } else {
@@ -203,7 +199,7 @@ void tell_at_zero(dJointID joint, const JointFrame& f, unsigned signs) noexcept 
         const Vec3 slid = start.position + sign(3) * f.position * f.axis[2];
         zero.position = f.anchor[1] + turn * (slid - f.anchor[1]);
         at_zero.axis[2] = turn * f.axis[2];
-    } else if (type != dJointTypeAMotor) {
+    } else {
         const Vec3& carried = f.anchor[reversed ? 1 : 0];
         const Vec3& other = f.anchor[reversed ? 0 : 1];
         zero.position = other + turn * (start.position - carried);
@@ -315,7 +311,7 @@ JointFrame read_frame(dJointID joint) noexcept {
 }
 
 void set_frame(dJointID joint, const JointFrame& frame) noexcept {
-    if (!measures(joint, frame)) {
+    if (!measures(joint)) {
         tell_frame(joint, frame);
         return;
     }
