@@ -114,7 +114,8 @@ std::vector<dBodyID> swinging_ball(dWorldID world, dSpaceID space) {
     return {b};
 }
 
-/// Four balls of 50 g in a line, 4 cm apart, the first of them joined to the world; they fall level.
+/// Four balls of 50 g in a line, 4 cm apart, the first of them joined to the world; they fall
+/// level.
 std::vector<dBodyID> chain(dWorldID world, dSpaceID space) {
     std::vector<dBodyID> links;
     const Vec3 start(0.013, 0.007, 0.0255);

@@ -11,8 +11,8 @@
 
 namespace ode::test {
 
-/// Rigid bodies, jointed or not, about to hit a soft one. The same scene is run by the library, with
-/// ODE's steps of length h, and by a reference that steps ODE itself at the substep.
+/// Rigid bodies, jointed or not, about to hit a soft one. The same scene is run by the library,
+/// with ODE's steps of length h, and by a reference that steps ODE itself at the substep.
 struct CouplingCase {
     std::string name;
     double seconds = 0.08;
@@ -25,8 +25,8 @@ struct CouplingCase {
 /// What a run shows.
 struct CouplingRun {
     soft::Vec3 impulse = soft::Vec3::Zero(); ///< on all bodies of the rig, by the soft one [N s]
-    double peak = 0;          ///< largest contact force on them [N]
-    double energy_before = 0; ///< rigid and soft, gravity included [J]
+    double peak = 0;                         ///< largest contact force on them [N]
+    double energy_before = 0;                ///< rigid and soft, gravity included [J]
     double energy_after = 0;
     std::vector<soft::Vec3> path; ///< centre of the watched body, every 16 ms [m]
     double length = 0;            ///< of its path, reference only [m]
@@ -37,8 +37,8 @@ struct CouplingRun {
 
 constexpr double kCouplingSubstep = 1e-5; ///< [s]
 
-/// A rod hinged to the world whose tip falls on a plate; a ball on a light rod that swings against a
-/// bar clamped upright; four balls on ball joints, the last of which hits a plate.
+/// A rod hinged to the world whose tip falls on a plate; a ball on a light rod that swings against
+/// a bar clamped upright; four balls on ball joints, the last of which hits a plate.
 std::vector<CouplingCase> coupling_cases();
 /// The rod on a block that floats, of `ratio` times its mass.
 CouplingCase mass_ratio_case(double ratio);

@@ -90,8 +90,8 @@ public:
     void on_body_end(Body&) noexcept override {}
     void on_world_end(SoftWorld&) noexcept override {}
 
-    double from = -1; ///< [s]
-    double first_energy = 0;          ///< before anything moved [J]
+    double from = -1;               ///< [s]
+    double first_energy = 0;        ///< before anything moved [J]
     double most_energy = -HUGE_VAL; ///< of the rigid bodies alone [J]
     double low = HUGE_VAL;
     double high = -HUGE_VAL;
@@ -142,8 +142,7 @@ PileRun run_pile(Pile pile, double h, double drop, double seconds) {
         LoadWatch& watch = *owned;
         soft.add_observer(std::move(owned));
         for (std::size_t i = 0; i < bodies.size(); ++i)
-            watch.first_energy +=
-                9.81 * blocks(pile)[i].mass * dBodyGetPosition(bodies[i])[2];
+            watch.first_energy += 9.81 * blocks(pile)[i].mass * dBodyGetPosition(bodies[i])[2];
         Near near{app.world, app.contacts, &soft};
         const double start = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
         const long steps = std::lround(seconds / h);

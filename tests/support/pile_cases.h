@@ -2,8 +2,8 @@
 
 namespace ode::test {
 
-/// What a soft plate that carries rigid bodies feels, through an unchanged ODE application whose near
-/// callback makes contact joints.
+/// What a soft plate that carries rigid bodies feels, through an unchanged ODE application whose
+/// near callback makes contact joints.
 struct PileRun {
     double weight;  ///< of the pile [N]
     double mean;    ///< of the force on the plate over the last part, step means [N]
@@ -19,8 +19,8 @@ enum class Pile {
     three, ///< 0.1, 0.3 and 1 kg on one another
 };
 
-/// @param h  ODE's step [s]. @param drop  gaps at the start [m]. @param seconds  of which the last 0.1
-/// are looked at.
+/// @param h  ODE's step [s]. @param drop  gaps at the start [m]. @param seconds  of which the last
+/// 0.1 are looked at.
 PileRun run_pile(Pile pile, double h, double drop, double seconds);
 
 } // namespace ode::test

@@ -57,9 +57,7 @@ const Kind* kind_of(dJointID joint) noexcept {
 void copy_axis(const Kind& kind, dJointID app, dJointID twin, int group,
                const Softness& softness) noexcept {
     const auto get = [&](int parameter) { return kind.get(app, parameter + group); };
-    const auto set = [&](int parameter, double value) {
-        kind.set(twin, parameter + group, value);
-    };
+    const auto set = [&](int parameter, double value) { kind.set(twin, parameter + group, value); };
     for (const int parameter : {dParamLoStop, dParamHiStop, dParamVel, dParamFMax,
                                 dParamFudgeFactor, dParamBounce, dParamCFM})
         set(parameter, get(parameter)); // a motor's CFM is a pure damper's: no step in it
@@ -106,9 +104,7 @@ void copy_parameters(dJointID app, dJointID twin, const Softness& softness) noex
         soften(dParamSuspensionERP, dParamSuspensionCFM);
 }
 
-void copy_geometry(dJointID app, dJointID twin) noexcept {
-    set_frame(twin, read_frame(app));
-}
+void copy_geometry(dJointID app, dJointID twin) noexcept { set_frame(twin, read_frame(app)); }
 
 bool same_geometry(dJointID app, dJointID twin) noexcept {
     return distance(read_frame(app), read_frame(twin)) < kFrameTolerance;

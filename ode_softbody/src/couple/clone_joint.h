@@ -23,9 +23,9 @@ dJointID create_twin(dWorldID world, dJointID app, dBodyID first, dBodyID second
 /// Anchors, axes, positions and angles of `app` become those of its twin, whose bodies stand where
 /// the application's stand. What ODE can't be asked is taken as fulfilled: the misalignment, as
 /// large as ODE's own error, of the second body's hinge, slider, piston or prismatic axis, and of a
-/// fixed joint. The axes of a linear motor are taken for the world's, a Plane2D's motors for absent;
-/// Euler motors act about the axes and at the angles of the step's start. A PU joint attached as
-/// (nullptr, body) is not followed faithfully.
+/// fixed joint. The axes of a linear motor are taken for the world's, a Plane2D's motors for
+/// absent; Euler motors act about the axes and at the angles of the step's start. A PU joint
+/// attached as (nullptr, body) is not followed faithfully.
 void copy_geometry(dJointID app, dJointID twin) noexcept;
 
 /// Whether all that can be asked of the geometry agrees within ODE's rounding. Both stand in the

@@ -29,7 +29,8 @@ JointFrame read_frame(dJointID joint) noexcept;
 ///
 /// ODE takes the pose at which a setter is called for the zero of position and angles. So the
 /// joint's first body is put where all of them are zero and both anchors meet, and back after the
-/// call; which way to turn is found by asking, since ODE's signs vary with kind and order of bodies.
+/// call; which way to turn is found by asking, since ODE's signs vary with kind and order of
+/// bodies.
 void set_frame(dJointID joint, const JointFrame& frame) noexcept;
 
 /// Largest difference of any member [m, rad].

@@ -300,9 +300,8 @@ void MirrorWorld::measure_mobility() noexcept {
 }
 
 bool MirrorWorld::is_awake() const noexcept {
-    return std::any_of(body_.begin(), body_.end(), [](const MirroredBody& b) {
-        return b.dynamic && dBodyIsEnabled(b.twin);
-    });
+    return std::any_of(body_.begin(), body_.end(),
+                       [](const MirroredBody& b) { return b.dynamic && dBodyIsEnabled(b.twin); });
 }
 
 void MirrorWorld::advance(double dt) noexcept {

@@ -34,8 +34,8 @@ struct MirroredBody {
 
 /// A private ODE world with twins of the jointed bodies near soft ones, stepped at the substep by
 /// ODE's own dWorldStep: every kind of joint, limit and motor acts inside the step as it does
-/// outside, at the cost of ODE's solver (1.6 us a hinge). No geoms, no callbacks, no auto-disabling;
-/// nothing of it reaches the application's bodies before write_back().
+/// outside, at the cost of ODE's solver (1.6 us a hinge). No geoms, no callbacks, no
+/// auto-disabling; nothing of it reaches the application's bodies before write_back().
 ///
 /// Velocities: ODE's belong half a step back (see RigidShadow). A body that comes near gets its
 /// velocity shifted by the acceleration that its joints leave it, found by two steps on trial; what

@@ -12,15 +12,15 @@ constexpr double kStiffness = 1e7; ///< [N/m]
 constexpr double kSame = 8e-3;     ///< a contact is known again within this [m]
 constexpr double kFading = 4;      ///< of the offset [1/s]
 // ODE finds a contact pressed by some newtons a few micrometres deep, or, by rounding, not at all.
-constexpr double kGraze = 2e-5;  ///< deeper, ODE can't have missed it: the bodies have moved on [m]
-constexpr double kLoose = 1e-3;  ///< it comes apart, or slides off, by this [m]
-// Explicit friction of up to eight contacts on one body: 8 * 0.7 * 0.08 = 0.45 of the 4 that leapfrog
-// bears; the dashpot takes 0.14 a contact beside it.
+constexpr double kGraze = 2e-5; ///< deeper, ODE can't have missed it: the bodies have moved on [m]
+constexpr double kLoose = 1e-3; ///< it comes apart, or slides off, by this [m]
+// Explicit friction of up to eight contacts on one body: 8 * 0.7 * 0.08 = 0.45 of the 4 that
+// leapfrog bears; the dashpot takes 0.14 a contact beside it.
 constexpr double kShare = 0.08; ///< of stiffness dt^2 compliance
 constexpr double kTangentialDamping = 0.3;
 
-/// Damping ratio at which a one-sided spring and dashpot whose force can't pull returns this share of
-/// the speed (Schwager, Poeschel, Granular Matter 9 (2007), doi:10.1007/s10035-007-0065-z).
+/// Damping ratio at which a one-sided spring and dashpot whose force can't pull returns this share
+/// of the speed (Schwager, Poeschel, Granular Matter 9 (2007), doi:10.1007/s10035-007-0065-z).
 double damping_ratio(double restitution) noexcept {
     const auto returned = [](double zeta) {
         const double root = std::sqrt(std::fabs(1 - zeta * zeta));
@@ -115,11 +115,11 @@ void RigidContacts::meet(const dContact& contact, std::size_t first, std::size_t
         p.damping = (1 - erp) / surface.soft_cfm;
     } else {
         const Vec3 slip = a.motion().velocity_at(place) - b.motion().velocity_at(place);
-        const bool bounces = (surface.mode & dContactBounce) != 0 &&
-                             -slip.dot(p.normal) > surface.bounce_vel;
+        const bool bounces =
+            (surface.mode & dContactBounce) != 0 && -slip.dot(p.normal) > surface.bounce_vel;
         p.stiffness = std::fmin(bearable, kStiffness);
-        p.damping = 2 * damping_ratio(bounces ? surface.bounce : 0) *
-                    std::sqrt(p.stiffness / compliance);
+        p.damping =
+            2 * damping_ratio(bounces ? surface.bounce : 0) * std::sqrt(p.stiffness / compliance);
     }
     Point* old = find(p, shadow);
     if (!old) {

@@ -14,10 +14,10 @@ namespace ode::soft {
 /// persistent springs and dashpots where ODE has rigid contact joints that last for a step.
 ///
 /// Normal: a one-sided spring that keeps energy (NormalContact) of 1e7 N/m, or of what the
-/// application's soft_erp and soft_cfm say, and a dashpot that gives the restitution asked for (none,
-/// if the contact doesn't bounce). Friction by a spring with a clamped stretch, as in NodeContact;
-/// mu by Coulomb under dContactApprox1, else a force, as in ODE. Surface motion along fdir1 counts.
-/// mu2, slip and rolling friction don't.
+/// application's soft_erp and soft_cfm say, and a dashpot that gives the restitution asked for
+/// (none, if the contact doesn't bounce). Friction by a spring with a clamped stretch, as in
+/// NodeContact; mu by Coulomb under dContactApprox1, else a force, as in ODE. Surface motion along
+/// fdir1 counts. mu2, slip and rolling friction don't.
 ///
 /// A contact bears nothing at first sight: ODE reports it up to a step late, so deep that a spring
 /// would eject the pile. The depth found is its offset, which fades at 4 /s within the substeps. In

@@ -10,8 +10,8 @@ namespace {
 // node_contact.cpp): 0.28 is left for the rigid side.
 constexpr double kRigidBudget = 0.28;
 
-// A sleeping body wakes when what presses on it differs by more than this from what did when it fell
-// asleep. Its rest shifts the load by the few per cent that it still moved.
+// A sleeping body wakes when what presses on it differs by more than this from what did when it
+// fell asleep. Its rest shifts the load by the few per cent that it still moved.
 constexpr double kRouse = 0.2;
 
 Vec3 vec(const dReal* v) noexcept { return {v[0], v[1], v[2]}; }
@@ -305,8 +305,8 @@ void RigidShadow::write_back() noexcept {
     update_motion();
     const double keep = damped(motion_.velocity, dBodyGetLinearDampingThreshold(body_),
                                dBodyGetLinearDamping(body_));
-    const double keep_spin = damped(motion_.spin, dBodyGetAngularDampingThreshold(body_),
-                                    dBodyGetAngularDamping(body_));
+    const double keep_spin =
+        damped(motion_.spin, dBodyGetAngularDampingThreshold(body_), dBodyGetAngularDamping(body_));
     const Vec3 v = keep * motion_.velocity;
     const Vec3 w = keep_spin * motion_.spin;
     const Vec3& x = motion_.pose.position;

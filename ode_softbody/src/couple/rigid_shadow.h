@@ -27,12 +27,12 @@ enum class RigidRole {
 /// substep before the step's start, and back at the end. Thus, untouched, a free body moves as
 /// under ODE alone, for any number of substeps (orientation: to the order of ODE's own error).
 ///
-/// A pile's bodies (free, with recorded contacts between rigid bodies) are `propped`: they may be at
-/// rest, which a shift by gravity alone would turn into a blow. They enter as ODE left them, and go
-/// on from their own state as long as the application leaves them as they were written.
+/// A pile's bodies (free, with recorded contacts between rigid bodies) are `propped`: they may be
+/// at rest, which a shift by gravity alone would turn into a blow. They enter as ODE left them, and
+/// go on from their own state as long as the application leaves them as they were written.
 ///
-/// `unheard` is a fallback and costs accuracy: within a step the other rigid bodies are not felt, so
-/// a stack on a soft body rattles. It never gained energy in trials.
+/// `unheard` is a fallback and costs accuracy: within a step the other rigid bodies are not felt,
+/// so a stack on a soft body rattles. It never gained energy in trials.
 ///
 /// Per step: construct; per substep: add() any number of times, then advance() (and follow() once
 /// the mirror has advanced); then hand_over(), ODE's real step, write_back().
@@ -116,8 +116,8 @@ public:
 
     /// Before ODE's step: wakes a touched body and gives it the mean contact force.
     void hand_over() noexcept;
-    /// After ODE's step: pose and velocities of a free body that was touched, or is live, become the
-    /// shadow's.
+    /// After ODE's step: pose and velocities of a free body that was touched, or is live, become
+    /// the shadow's.
     void write_back() noexcept;
 
 private:
@@ -142,7 +142,7 @@ private:
     Vec3 momentum_ = Vec3::Zero();         ///< [kg m/s]
     Vec3 angular_momentum_ = Vec3::Zero(); ///< about the centre, world frame [kg m^2/s]
     Quat orientation_ = Quat::Identity();
-    Wrench external_; ///< gravity and the application's
+    Wrench external_;   ///< gravity and the application's
     Wrench contact_;    ///< of this substep
     Wrench from_rigid_; ///< of which by rigid bodies
     Wrench impulse_;
@@ -155,7 +155,7 @@ private:
     bool touched_ = false;
     bool propped_ = false;
     bool has_rest_ = false;
-    Wrench rest_; ///< mean contact force when it fell asleep
+    Wrench rest_;        ///< mean contact force when it fell asleep
     bool borne_ = false; ///< some contact bears in this substep
     bool bore_ = false;  ///< in the last
     bool live_ = false;

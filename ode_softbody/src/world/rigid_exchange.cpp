@@ -186,14 +186,15 @@ std::size_t RigidExchange::shadow_of(dBodyID body, double h, double dt) {
         return static_cast<std::size_t>(known);
     MirroredBody* twin = body ? mirror_.find(body) : nullptr;
     RigidShadow& made = twin ? shadow_.emplace_back(*twin, h) : shadow_.emplace_back(body, h, dt);
-    const auto before = std::find_if(before_.begin(), before_.end(),
-                                     [&](const RigidShadow& s) { return body && s.body() == body; });
+    const auto before = std::find_if(before_.begin(), before_.end(), [&](const RigidShadow& s) {
+        return body && s.body() == body;
+    });
     const bool known_before = before != before_.end();
     if (known_before)
         made.remember(*before);
     const auto members = islands_.members();
-    const auto member = std::find_if(members.begin(), members.end(),
-                                     [&](const auto& m) { return m.body == body; });
+    const auto member =
+        std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.body == body; });
     if (member != members.end()) {
         const RigidIslands::Island& island = islands_.islands()[member->island];
         if (island.propped && !twin)

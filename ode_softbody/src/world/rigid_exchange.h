@@ -14,9 +14,9 @@ namespace ode::soft {
 class Body;
 
 /// Everything between soft and rigid bodies during one ODE step: which contacts there are, the
-/// islands of rigid bodies that take part, and the shadow of each of their bodies, shared by all soft
-/// bodies that touch it. A free body is an island of its own and needs its shadow alone; jointed
-/// bodies have a twin in the mirror; piles have their contacts here.
+/// islands of rigid bodies that take part, and the shadow of each of their bodies, shared by all
+/// soft bodies that touch it. A free body is an island of its own and needs its shadow alone;
+/// jointed bodies have a twin in the mirror; piles have their contacts here.
 ///
 /// The application's bodies move as under ODE alone until their island is touched; from then on as
 /// the substeps say, until it has not been near for a tenth of a second: a bounce shall not begin

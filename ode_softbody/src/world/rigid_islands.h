@@ -13,8 +13,8 @@ namespace ode::soft {
 /// The rigid bodies that move with those near a soft one: linked to them by joints, or by contacts
 /// that were recorded. Kinematic bodies and the ground belong to no island and link none.
 ///
-/// Far from soft bodies nothing is looked at. No limit is put to an island's size: one that is built
-/// of a hundred bodies is substepped whole.
+/// Far from soft bodies nothing is looked at. No limit is put to an island's size: one that is
+/// built of a hundred bodies is substepped whole.
 class RigidIslands {
 public:
     struct Member {

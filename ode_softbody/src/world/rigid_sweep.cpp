@@ -22,7 +22,8 @@ double way_of(dGeomID geom, dBodyID body, const dReal* box, double h) noexcept {
     const dReal* x = dBodyGetPosition(body);
     double arm2 = 0; // to the farthest corner of the box
     for (int i = 0; i < 3; ++i) {
-        const double far = std::fmax(std::fabs(box[2 * i] - x[i]), std::fabs(box[2 * i + 1] - x[i]));
+        const double far =
+            std::fmax(std::fabs(box[2 * i] - x[i]), std::fabs(box[2 * i + 1] - x[i]));
         arm2 += far * far;
     }
     if (dGeomGetClass(geom) == dSphereClass && !dGeomIsOffset(geom))

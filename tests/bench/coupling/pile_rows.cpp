@@ -7,7 +7,8 @@
 namespace ode::soft {
 
 void print_pile_rows(std::ostream& out) {
-    out << "| pile at rest on a plate | h, ms | mean load, N (weight) | ripple, of the weight | CPU s "
+    out << "| pile at rest on a plate | h, ms | mean load, N (weight) | ripple, of the weight | "
+           "CPU s "
            "|\n|---|---|---|---|---|\n";
     constexpr struct {
         test::Pile pile;

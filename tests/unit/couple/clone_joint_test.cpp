@@ -174,8 +174,8 @@ protected:
     static void TearDownTestSuite() { dCloseODE(); }
 };
 
-// Cloned in the middle of its motion, the twin says of itself what the joint says, and moves on as it
-// does: attached to the world, from the world, and between two bodies.
+// Cloned in the middle of its motion, the twin says of itself what the joint says, and moves on as
+// it does: attached to the world, from the world, and between two bodies.
 TEST_P(CloneJoint, TwinIsAndMovesAsTheJoint) {
     const Kind& kind = kinds()[GetParam()];
     for (const int order : {0, 1, 2}) {
