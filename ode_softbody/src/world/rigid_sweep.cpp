@@ -48,6 +48,8 @@ bool may_collide(dGeomID a, dGeomID b) noexcept {
 
 void sweep_rigid(dSpaceID space, double h, std::span<const std::unique_ptr<Body>> bodies,
                  RigidExchange& exchange) noexcept {
+    if (!space || dGeomGetClass(reinterpret_cast<dGeomID>(space)) == dQuadTreeSpaceClass)
+        return; // it has ended; or can't be listed
     const int count = dSpaceGetNumGeoms(space);
     for (int i = 0; i < count; ++i) {
         const dGeomID geom = dSpaceGetGeom(space, i);
