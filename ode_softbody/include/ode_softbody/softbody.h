@@ -62,6 +62,10 @@ typedef struct dSoftWorldStats {
     unsigned long observer_calls; /**< substep views handed out */
     dReal seconds;                /**< wall time spent in substeps [s], observers included */
     dReal observer_seconds;       /**< wall time spent in observers [s] */
+    unsigned long soft_pairs;     /**< pairs of soft bodies, and bodies with themselves, carried
+                                       through a substep */
+    unsigned long soft_looks;     /**< searches for near parts of such a pair's surfaces */
+    unsigned long soft_tests;     /**< surface points tested against a triangle of such a pair */
 } dSoftWorldStats;
 DSOFT_API int dSoftWorldGetStats(dSoftWorldID world, dSoftWorldStats* stats);
 
@@ -312,6 +316,14 @@ typedef int dSoftContactCallback(void* data, dGeomID soft, dGeomID rigid, dSoftC
 /** Lets the application choose the contact of every pair; NULL: the soft bodies' own again. */
 DSOFT_API int dSoftWorldSetContactCallback(dSoftWorldID world, dSoftContactCallback* callback,
                                            void* data);
+
+/* Soft bodies of one world meet each other as they meet rigid ones. A pair's friction is the
+ * geometric mean of both bodies' coefficients, its damping the mean, its stiffness the lesser. */
+
+/** Whether the body may not pass through itself, as a sheet that folds; off by default. Parts
+ * nearer to each other at rest than an edge of the mesh do not see each other. */
+DSOFT_API void dSoftBodySetSelfContact(dSoftBodyID body, int on);
+DSOFT_API int dSoftBodyGetSelfContact(dSoftBodyID body);
 
 /** Positions and velocities of all nodes in the mesh's order; borrowed until the next step or
  * change of order.

@@ -60,6 +60,16 @@ private:
 
 dSoftContact dSoftContactDefault(void) { return to_c(ContactLaw{}); }
 
+void dSoftBodySetSelfContact(dSoftBodyID id, int on) {
+    if (Body* body = live(id, __func__))
+        body->set_self_contact(on != 0);
+}
+
+int dSoftBodyGetSelfContact(dSoftBodyID id) {
+    const Body* body = live(id, __func__);
+    return body && body->self_contact();
+}
+
 int dSoftBodySetContact(dSoftBodyID id, const dSoftContact* contact) {
     require_id(contact, __func__);
     Body* body = live(id, __func__);

@@ -60,6 +60,9 @@ int dSoftWorldGetStats(dSoftWorldID id, dSoftWorldStats* out) {
     all.element_steps = stats.element_steps;
     all.contact_points = stats.contact_points;
     all.contact_tests = stats.contact_tests;
+    all.soft_pairs = stats.soft_pairs;
+    all.soft_looks = stats.soft_looks;
+    all.soft_tests = stats.soft_tests;
     all.observer_calls = stats.observer_calls;
     all.seconds = stats.seconds;
     all.observer_seconds = stats.observer_seconds;

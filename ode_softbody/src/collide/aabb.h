@@ -17,6 +17,14 @@ struct Aabb {
         low = low.cwiseMin(point);
         high = high.cwiseMax(point);
     }
+    void include(const Aabb& other) noexcept {
+        low = low.cwiseMin(other.low);
+        high = high.cwiseMax(other.high);
+    }
+    /// Squared distance to another box, 0 where they overlap [m^2].
+    double distance2(const Aabb& other) const noexcept {
+        return (low - other.high).cwiseMax(other.low - high).cwiseMax(0.0).squaredNorm();
+    }
     /// Moves every side outward [m].
     void grow(double margin) noexcept {
         low.array() -= margin;

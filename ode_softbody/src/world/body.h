@@ -94,6 +94,8 @@ public:
 
     const ContactLaw& contact_law() const noexcept { return contact_law_; }
     void set_contact_law(const ContactLaw& law) noexcept { contact_law_ = law; }
+    bool self_contact() const noexcept { return self_contact_; }
+    void set_self_contact(bool on) noexcept { self_contact_ = on; }
 
     bool stopped() const noexcept { return stopped_; }
     const StrainExtremes& extremes() const noexcept { return extremes_; } ///< of the last step
@@ -108,6 +110,7 @@ private:
     friend class SoftWorld;
     friend class Attachments;
     friend class RigidExchange;
+    friend class SoftExchange;
 
     /// Takes over a mesh that has the nodes of the body's own first. @throws InputError
     void build(TetMesh mesh, const std::string& model);
@@ -173,6 +176,8 @@ private:
     std::vector<int> nailed_;
     SurfaceNodes contact_nodes_; ///< area, mass, neighbourhood of each surface node
     ContactLaw contact_law_;
+    bool self_contact_ = false;
+    unsigned long number_ = 0; ///< bodies of the world made before
     double total_mass_;
     double critical_step_;
     double substep_;

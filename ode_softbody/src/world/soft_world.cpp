@@ -44,13 +44,16 @@ SoftWorld::~SoftWorld() {
 Body& SoftWorld::create_body(const TetMesh& mesh, std::span<const Solid> solids) {
     if (!space_)
         throw InputError("the space of the soft world is gone; make a soft world in another one");
-    return *body_.emplace_back(std::make_unique<Body>(*this, mesh, solids));
+    Body& body = *body_.emplace_back(std::make_unique<Body>(*this, mesh, solids));
+    body.number_ = made_++;
+    return body;
 }
 
 void SoftWorld::destroy_body(Body& body) noexcept {
     each_observer([&](Observer& observer) { observer.on_body_end(body); });
     exchange_.forget(body);
     attachments_.forget(body);
+    soft_exchange_.forget(body);
     std::erase_if(body_, [&](const auto& b) { return b.get() == &body; });
 }
 
@@ -154,6 +157,7 @@ bool SoftWorld::advance(double h) noexcept {
     const double first = common_substep(h);
     exchange_.begin_step(body_, h, first);
     attachments_.begin_step(exchange_, h, first);
+    soft_exchange_.begin_step(body_);
     for (const auto& body : body_)
         body->begin_step();
     double done = 0;
@@ -189,6 +193,11 @@ long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
         stats_.contact_tests += tally.tests;
         stats_.contact_points += tally.bearing;
         attachments_.bind(exchange_, dt);
+        const SoftContactTally soft = soft_exchange_.add_forces(dt);
+        stats_.soft_pairs += soft_exchange_.pairs();
+        stats_.soft_looks += soft.looks;
+        stats_.soft_tests += soft.tests;
+        stats_.contact_points += soft.bearing;
         exchange_.advance(dt);
         for (const auto& body : body_)
             if (!body->stopped()) {

@@ -10,6 +10,7 @@
 #include "world/other_spaces.h"
 #include "world/rigid_exchange.h"
 #include "world/rigid_pairs.h"
+#include "world/soft_exchange.h"
 
 #include <memory>
 #include <span>
@@ -24,6 +25,9 @@ struct WorldStats {
     unsigned long element_steps = 0;
     unsigned long contact_points = 0;
     unsigned long contact_tests = 0;
+    unsigned long soft_pairs = 0;
+    unsigned long soft_looks = 0;
+    unsigned long soft_tests = 0;
     unsigned long observer_calls = 0;
     double seconds = 0;          ///< time in substeps, observers included [s]
     double observer_seconds = 0; ///< time in observers [s]
@@ -130,12 +134,14 @@ private:
     Said said_; ///< of geoms that bear no contact
     RigidExchange exchange_;
     Attachments attachments_;
+    SoftExchange soft_exchange_;
     std::vector<std::unique_ptr<Body>> body_;
     std::vector<std::unique_ptr<Observer>> observer_;      ///< null: removed while busy
     std::vector<std::unique_ptr<Observer>> past_observer_; ///< removed, maybe still on the stack
     bool calling_ = false;                                 ///< observers
     WorldStats stats_;
     LiveId<SoftWorld> id_{*this};
+    unsigned long made_ = 0; ///< bodies so far
 };
 
 } // namespace ode::soft

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "couple/surface_contact.h"
+
+#include <cstddef>
+#include <optional>
+
+namespace ode::soft {
+
+/// Work done in one call.
+struct SoftContactTally {
+    unsigned long looks = 0;   ///< searches through the trees
+    unsigned long tests = 0;   ///< point against triangle
+    unsigned long bearing = 0; ///< points that bore force
+};
+
+/// A body's part in a pair, settled at the start of a step.
+struct SoftPartner {
+    SoftSurface& surface;
+    const ContactLaw& law;
+    double substep; ///< the body's own, nominal [s]
+};
+
+/// Contact of two soft bodies, of each one's points with the other's triangles, or of one body with
+/// itself. Kept from step to step as long as the pair stays near, because friction has a memory.
+///
+/// Law of the pair. Friction: geometric mean of both coefficients, so that a body without friction
+/// has none with anybody. Penalty: the softer one asked for, at most what both sides' nodes bear:
+/// friction's share is a third of kStiffnessShare / substep^2 * mass per area of the lighter side,
+/// the normal spring, stable at any stiffness, ten times that. It hangs on nominal substeps alone,
+/// so that the springs' potential is the same throughout. Dashpots: mean time constant.
+///
+/// Between looks through the trees nothing is sought: a look lasts until the surfaces, at kHaste
+/// times today's speed, may have come within reach.
+class SoftContact {
+public:
+    /// Surfaces are borrowed for the contact's life. One surface twice: self contact.
+    SoftContact(SoftSurface& a, SoftSurface& b);
+
+    bool is_self() const noexcept { return &a_ == &b_; }
+
+    void begin_step(const SoftPartner& a, const SoftPartner& b) noexcept;
+
+    /// Adds forces to both sides.
+    /// @param when  names the state of motion, for the trees.
+    SoftContactTally add_force(const SoftSide& a, const SoftSide& b, double dt, unsigned long when);
+
+private:
+    void look(const SoftSide& a, const SoftSide& b, double dt, unsigned long when,
+              SoftContactTally& tally);
+    void look_away(double nearest) noexcept;
+    void schedule(double budget) noexcept; ///< [m] that the surfaces may move before a look
+    bool is_near() const noexcept {
+        return points_of_a_.is_near() || (points_of_b_ && points_of_b_->is_near());
+    }
+
+    SoftSurface& a_;
+    SoftSurface& b_;
+    SurfaceContact points_of_a_;
+    std::optional<SurfaceContact> points_of_b_; ///< none for self contact
+    double fastest_ = 0;                        ///< that the surfaces move on each other [m/s]
+    double rate_ = 0;                           ///< the same, with room till the next look [m/s]
+    double way_ = 0;                            ///< since the last look, at most [m]
+    double last_dt_ = 0;                        ///< of the last substep [s]
+    double look_again_in_ = 0;                  ///< [s]
+};
+
+} // namespace ode::soft
