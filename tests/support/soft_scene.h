@@ -13,9 +13,9 @@ namespace ode::soft {
 
 /// A free body of one solid, as contact sees it.
 struct SceneBody {
-    SceneBody(TetMesh of, const Solid& solid, const char* law)
+    SceneBody(TetMesh of, const Solid& solid, const char* law_name)
         : mesh(std::move(of)), surface(extract_surface(mesh)),
-          model(make_model(law, mesh, {&solid, 1})), nodes(mesh, surface, model->mass()),
+          model(make_model(law_name, mesh, {&solid, 1})), nodes(mesh, surface, model->mass()),
           soft(nodes, mesh.node), state{NodeArray(mesh.node.size()), NodeArray(mesh.node.size())},
           force(mesh.node.size()) {
         for (std::size_t i = 0; i < mesh.node.size(); ++i)
@@ -75,7 +75,8 @@ public:
     SceneBody& add(TetMesh mesh, const Solid& solid, const char* law = "stvk") {
         return *body_.emplace_back(std::make_unique<SceneBody>(std::move(mesh), solid, law));
     }
-    /// Makes all bodies meet each other. @param dt  substep, also what stiffness is derived from.
+    /// Makes all bodies meet each other. @param dt  substep; stiffness is derived
+    /// from each body's own, as in a world.
     void begin(double dt) {
         dt_ = dt;
         contact_.clear();
@@ -87,7 +88,8 @@ public:
     /// As ODE's steps do. Friction remembers.
     void begin_step() {
         for (Contact& c : contact_)
-            c.law->begin_step({c.a->soft, c.a->law, dt_}, {c.b->soft, c.b->law, dt_});
+            c.law->begin_step({c.a->soft, c.a->law, std::max(dt_, 0.9 * c.a->critical)},
+                              {c.b->soft, c.b->law, std::max(dt_, 0.9 * c.b->critical)});
     }
     void advance() {
         for (const auto& b : body_) {

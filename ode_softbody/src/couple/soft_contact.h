@@ -27,8 +27,8 @@ struct SoftPartner {
 /// Law of the pair. Friction: geometric mean of both coefficients, so that a body without friction
 /// has none with anybody. Penalty: the softer one asked for, at most what both sides' nodes bear:
 /// friction's share is a third of kStiffnessShare / substep^2 * mass per area of the lighter side,
-/// the normal spring, stable at any stiffness, ten times that. It hangs on nominal substeps alone,
-/// so that the springs' potential is the same throughout. Dashpots: mean time constant.
+/// the normal spring, stable at any stiffness, seven times that. It hangs on nominal substeps
+/// alone, so that the springs' potential is the same throughout. Dashpots: mean time constant.
 ///
 /// Between looks through the trees nothing is sought: a look lasts until the surfaces, at kHaste
 /// times today's speed, may have come within reach.

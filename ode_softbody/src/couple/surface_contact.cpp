@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kEntryDepth = 0.25; ///< of a point first seen inside, in mean edges
+constexpr double kSameSide = 0.5;    ///< cosine: a face turned by less than 60 degrees
+constexpr double kFlush = 0.002;     ///< within a side, in mean edges, that it isn't the way out
+constexpr double kSlip = 0.02;       ///< beside a body, in mean edges, before a point is let go
 // Nearer than this, in mean edges, the direction between two points is rounding.
 constexpr double kClear = 1e-11;
 
@@ -59,9 +62,25 @@ bool SurfaceContact::are_neighbours(int point, int triangle) const noexcept {
     return (x - at).squaredNorm() < edge * edge;
 }
 
-bool SurfaceContact::faces_as(const Vec3& normal, int triangle,
-                              const NodeArray& position) const noexcept {
-    return area_vector(faces_.nodes(), position, triangle).dot(normal) >= 0;
+double SurfaceContact::cosine_with(const Vec3& normal, int triangle,
+                                   const NodeArray& position) const noexcept {
+    const Vec3 area = area_vector(faces_.nodes(), position, triangle);
+    return area.dot(normal) / area.norm();
+}
+
+bool SurfaceContact::flush_with(const Closest& facing, const Closest& front) const noexcept {
+    const double edge = faces_.nodes().mean_edge;
+    return front.triangle >= 0 && facing.distance2 < kFlush * kFlush * edge * edge;
+}
+
+bool SurfaceContact::has_slipped_off(const Closest& closest, const Vec3& x, const State& state,
+                                     const NodeArray& position) const noexcept {
+    const Vec3 away = x - closest.at.point;
+    const double edge = faces_.nodes().mean_edge;
+    return closest.distance2 > kSlip * kSlip * edge * edge &&
+           away.dot(state.normal) > -kSameSide * std::sqrt(closest.distance2) &&
+           away.dot(pseudonormal(faces_.nodes(), position, closest.triangle, closest.at.weight)) >
+               0;
 }
 
 double SurfaceContact::look(const SoftSide& points, const SoftSide& faces, double reach,
@@ -84,7 +103,7 @@ double SurfaceContact::look(const SoftSide& points, const SoftSide& faces, doubl
                 closest_point(x, faces_.nodes().triangle[index(t)], faces.position).point;
             const double distance = (x - at).norm();
             closest = std::fmin(closest, distance);
-            if (state.bears && faces_as(state.normal, t, faces.position))
+            if (state.bears && cosine_with(state.normal, t, faces.position) >= 0)
                 facing = std::fmin(facing, distance);
             found_.push_back({t, distance});
         });
@@ -113,22 +132,23 @@ void SurfaceContact::look_away() noexcept {
     std::fill(state_.begin(), state_.end(), State{});
 }
 
-SurfaceContact::Closest SurfaceContact::find_closest(const Near& near, const Vec3& x,
-                                                     const State& state,
-                                                     const NodeArray& position) const noexcept {
-    Closest best;
-    best.distance2 = kInfinity;
+void SurfaceContact::find_closest(const Near& near, const Vec3& x, const State& state,
+                                  const NodeArray& position, Closest& any, Closest& facing,
+                                  Closest& front) const noexcept {
     for (int i = near.first; i < near.last; ++i) {
         const int t = face_[index(i)];
         const TrianglePoint at = closest_point(x, faces_.nodes().triangle[index(t)], position);
         const double distance2 = (x - at.point).squaredNorm();
-        if (distance2 >= best.distance2)
+        if (distance2 < any.distance2)
+            any = {t, at, distance2};
+        if (!state.bears)
             continue;
-        if (state.bears && !faces_as(state.normal, t, position))
-            continue;
-        best = {t, at, distance2};
+        const double turn = cosine_with(state.normal, t, position);
+        if (turn >= 0 && distance2 < facing.distance2)
+            facing = {t, at, distance2};
+        if (turn >= kSameSide && distance2 < front.distance2)
+            front = {t, at, distance2};
     }
-    return best;
 }
 
 void SurfaceContact::find_touching(const SoftSide& points, const SoftSide& faces, double way,
@@ -141,17 +161,24 @@ void SurfaceContact::find_touching(const SoftSide& points, const SoftSide& faces
         State& state = state_[index(near.point)];
         const SurfacePoint& point = points_.points()[index(near.point)];
         const Vec3 x = point.in(points.position);
-        const Closest closest = find_closest(near, x, state, faces.position);
+        Closest closest;
+        Closest facing;
+        Closest front;
+        find_closest(near, x, state, faces.position, closest, facing, front);
         tests += index(near.last - near.first);
-        if (closest.triangle < 0) {
+        if (closest.triangle < 0 || (state.bears && facing.triangle < 0)) {
             state = State{};
             continue;
         }
+        const bool chosen = state.bears && !has_slipped_off(closest, x, state, faces.position);
+        const bool flush = chosen && flush_with(facing, front);
+        if (chosen)
+            closest = flush ? front : facing;
         const auto& corner = faces_.nodes().triangle[index(closest.triangle)];
         const Vec3& weight = closest.at.weight;
         const Vec3 outward = pseudonormal(faces_.nodes(), faces.position, closest.triangle, weight);
         const Vec3 away = x - closest.at.point;
-        const bool outside = away.dot(outward) >= 0;
+        const bool outside = away.dot(flush ? state.normal : outward) >= 0;
         const double distance = std::sqrt(closest.distance2);
         const double depth = outside ? -distance : distance;
         if (depth <= 0) {

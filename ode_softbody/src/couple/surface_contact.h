@@ -4,6 +4,7 @@
 #include "couple/contact_law.h"
 #include "couple/soft_surface.h"
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -43,9 +44,10 @@ struct PairLaw {
 /// spring keeps book of the energy it has taken and never gives back more.
 ///
 /// A point that was seen outside before may be at any depth; one first seen inside counts only down
-/// to a quarter of an edge. Once it bears, only triangles that face as then are the surface: the
-/// far side of a thin body doesn't pull it through, even after it has passed the whole thickness in
-/// one substep.
+/// to a quarter of an edge. Once it bears, only triangles that face as then, within 90 degrees, are
+/// the surface: the far side of a thin body doesn't pull it through, even after it has passed the
+/// whole thickness in one substep. A point all but on a side, as where two boxes lie flush, is
+/// pushed back and not out sideways; it is let go where it has slipped off beside.
 ///
 /// Linear and angular momentum are kept to rounding: normal forces act along the line between the
 /// two points, friction at one of them, see drag().
@@ -119,7 +121,7 @@ private:
     struct Closest {
         int triangle = -1;
         TrianglePoint at;
-        double distance2;
+        double distance2 = std::numeric_limits<double>::infinity();
     };
     struct Found {
         int triangle;
@@ -133,8 +135,15 @@ private:
     void apply(const Touch& touch, const Vec3& f, const SoftSide& points,
                const SoftSide& faces) const noexcept;
     bool are_neighbours(int point, int triangle) const noexcept;
-    bool faces_as(const Vec3& normal, int triangle, const NodeArray& position) const noexcept;
-    Closest find_closest(const Near& near, const Vec3& x, const State& state,
+    double cosine_with(const Vec3& normal, int triangle, const NodeArray& position) const noexcept;
+    /// Of all listed faces; of those that don't face against the way the point came in; of those
+    /// that face along it.
+    void find_closest(const Near& near, const Vec3& x, const State& state,
+                      const NodeArray& position, Closest& any, Closest& facing,
+                      Closest& front) const noexcept;
+    bool flush_with(const Closest& facing, const Closest& front) const noexcept;
+    /// A bearing point has left the body beside the face that it came in through.
+    bool has_slipped_off(const Closest& closest, const Vec3& x, const State& state,
                          const NodeArray& position) const noexcept;
 
     const SoftSurface& points_;
