@@ -61,7 +61,8 @@ Vec3 RigidContacts::place_of(const Point& p, std::span<const RigidShadow> shadow
 bool RigidContacts::is_grazing(const Point& p, std::span<const RigidShadow> shadow) noexcept {
     const Vec3 apart = shadow[p.shadow[0]].motion().pose.to_world(p.local[0]) -
                        shadow[p.shadow[1]].motion().pose.to_world(p.local[1]);
-    return depth_of(p, shadow) < kGraze && apart.norm() < kLoose;
+    const bool live = shadow[p.shadow[0]].live() || shadow[p.shadow[1]].live();
+    return live && depth_of(p, shadow) < kGraze && apart.norm() < kLoose;
 }
 
 RigidContacts::Point* RigidContacts::find(const Point& fresh,
@@ -124,6 +125,12 @@ void RigidContacts::meet(const dContact& contact, std::size_t first, std::size_t
     Point* old = find(p, shadow);
     if (!old) {
         point_.push_back(p);
+        return;
+    }
+    // While ODE's own result stands, bodies move by its contacts: what these compressed is no
+    // memory of this spring's, and would throw the pile apart.
+    if (!a.live() && !b.live()) {
+        *old = p;
         return;
     }
     if (old->stiffness <= bearable) { // one that bears keeps its law
