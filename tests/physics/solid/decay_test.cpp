@@ -92,7 +92,7 @@ Solid steel() {
 struct Ringing {
     TetMesh mesh = make_bar(0.1, 0.02, 0.01, 5, 1, 1);
     std::vector<Solid> solids{steel()};
-    BodyForm form{1, "stvk", false, false, {}};
+    BodyForm form;
     Vec3 spin = Vec3::Zero(); ///< [rad/s]
 };
 
