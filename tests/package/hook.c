@@ -1,5 +1,5 @@
-/* hook MODE [LIBRARY]: an ODE program whose soft cube must fall with its ball, and whose hook must be
- * MODE: interposed, threading or none. With LIBRARY the soft bodies come late, by dlopen with
+/* hook MODE [LIBRARY]: an ODE program whose soft cube must fall with its ball, and whose hook must
+ * be MODE: interposed, threading or none. With LIBRARY the soft bodies come late, by dlopen with
  * RTLD_LOCAL, or RTLD_GLOBAL for a MODE that ends in "_global". */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -58,8 +58,8 @@ static dReal height(dSoftBodyID body) {
 
 static void nothing(void* data, dGeomID a, dGeomID b) { (void)data, (void)a, (void)b; }
 
-/* One life of the program: the world is stepped before there are soft bodies and after; with a thread
- * pool of the program's own when threads > 0. */
+/* One life of the program: the world is stepped before there are soft bodies and after; with a
+ * thread pool of the program's own when threads > 0. */
 static void live(dSoftHook hook, const char* library, int flags, int (*step)(dWorldID, dReal),
                  int threads) {
     dInitODE2(0);
@@ -70,8 +70,8 @@ static void live(dSoftHook hook, const char* library, int flags, int (*step)(dWo
         threading = dThreadingAllocateMultiThreadedImplementation();
         pool = dThreadingAllocateThreadPool((unsigned)threads, 0, dAllocateMaskAll, NULL);
         dThreadingThreadPoolServeMultiThreadedImplementation(pool, threading);
-        dWorldSetStepThreadingImplementation(
-            world, dThreadingImplementationGetFunctions(threading), threading);
+        dWorldSetStepThreadingImplementation(world, dThreadingImplementationGetFunctions(threading),
+                                             threading);
     }
     dSpaceID space = dHashSpaceCreate(NULL);
     dWorldSetGravity(world, 0, 0, -9.81);
@@ -126,7 +126,7 @@ int main(int count, char** argument) {
     const char* mode = count > 1 ? argument[1] : "";
     const char* library = count > 2 ? argument[2] : NULL;
     const int flags = strstr(mode, "_global") ? RTLD_GLOBAL : RTLD_LOCAL;
-    const dSoftHook hook = strncmp(mode, "interposed", 10) == 0  ? dSoftHookInterposed
+    const dSoftHook hook = strncmp(mode, "interposed", 10) == 0 ? dSoftHookInterposed
                            : strncmp(mode, "threading", 9) == 0 ? dSoftHookThreading
                                                                 : dSoftHookNone;
     for (int life = 0; life < 3; ++life)

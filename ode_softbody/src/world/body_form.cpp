@@ -89,9 +89,8 @@ CurveReport Body::set_form(const BodyForm& form) {
         throw InputError("the body has been stepped already; choose its order, material model, "
                          "curvature and integrator before its first step");
     if (world_.attachments().has(*this))
-        throw InputError(
-            "the body is attached to a rigid one; choose its order, material model, "
-            "curvature and integrator before that");
+        throw InputError("the body is attached to a rigid one; choose its order, material model, "
+                         "curvature and integrator before that");
     if (form.order != 1 && form.order != 2)
         throw InputError(format("there are no elements of order %d; give 1 or 2", form.order));
     if (form.order < given_order_)
