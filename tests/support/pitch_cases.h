@@ -18,7 +18,10 @@ struct PitchCase {
     std::vector<Solid> solids;
     std::function<bool(const Vec3&)> clamped; ///< empty: free
     double max_frequency;                     ///< [Hz] partials are compared up to here
-    std::size_t partials = 10;                ///< the lowest so many
+    /// Where refined(mesh) isn't good enough for a reference: another mesh of the body, matched by
+    /// rank. Else empty.
+    TetMesh reference = {};
+    std::size_t partials = 10; ///< the lowest so many
 };
 
 /// The bodies on which the constants of the band (modal/pitch.cpp) were chosen.

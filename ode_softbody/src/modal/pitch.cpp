@@ -30,9 +30,9 @@ struct Rule {
 constexpr Rule kPlain{0, 2};
 /// Cubic, judged by quartic. What the quartic order leaves is e4 = g d. With lambda's error as
 /// p^(-4a) at an edge of singularity a (Babuska and Suri 1994, doi:10.1137/1036141): g = 0.8 at a
-/// clamped right-angled edge (a = 0.71), and toward zero where the shape is smooth. Between them,
-/// 0.35 is the answer, and 0.5 to either side its band.
-constexpr Rule kQuartic{1.35, 0.5};
+/// clamped right-angled edge (a = 0.71), and toward zero where the shape is smooth. The middle,
+/// 0.4, is the answer; the band reaches both ends, and 0.05 more for what refine() leaves.
+constexpr Rule kQuartic{1.4, 0.45};
 /// Cubic, judged by quadratic, where the mesh is too large for more: d is f3 - f2, negative. Curves
 /// that were rebuilt cost both orders more than they show.
 constexpr Rule kQuadratic{-0.1, 0.5}, kQuadraticRebuilt{-0.1, 0.7};
