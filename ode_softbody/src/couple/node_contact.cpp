@@ -96,8 +96,10 @@ void NodeContact::prepare_points() {
     is_prepared_ = true;
     recess_.clear();
     const bool ball = shape_.kind == ShapeKind::sphere;
-    const bool flat = shape_.kind == ShapeKind::plane || shape_.kind == ShapeKind::box ||
-                      shape_.kind == ShapeKind::convex;
+    // A board thinner than an element could be pierced by a bulge, which has no memory of its side.
+    const bool flat =
+        shape_.kind == ShapeKind::plane || shape_.kind == ShapeKind::convex ||
+        (shape_.kind == ShapeKind::box && 2 * shape_.size.minCoeff() > nodes_.mean_edge);
     if (!bears_by_point(nodes_, law_) || !(ball || flat))
         return;
     const double curvature = ball ? 1 / shape_.size.x() : 0;
@@ -302,7 +304,7 @@ void NodeContact::push(const NodeArray& position, const NodeArray& velocity, Rig
         const double lightness = inverse_mass_[n];
         const Vec3 ahead = velocity[n] + dt * lightness * force[n] - rigid.velocity_ahead(x, dt);
         const double press =
-            NormalContact{.stiffness = stiffness_[i],
+            NormalContact{.stiffness = k,
                           .damping = c,
                           .compliance = lightness + rigid.compliance(x, touch.normal),
                           .depth = touch.depth,

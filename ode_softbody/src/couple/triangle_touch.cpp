@@ -41,7 +41,7 @@ bool push_triangle(const TriangleTouch& touch, TouchState& state, const ContactL
     }
     const Vec3 slip = slip_at(touch, surface, velocity, rigid.motion());
     const double parting = slip.dot(state.normal);
-    const double press = NormalContact{.stiffness = state.stiffness,
+    const double press = NormalContact{.stiffness = k,
                                        .damping = c,
                                        .compliance = compliance,
                                        .depth = touch.depth,

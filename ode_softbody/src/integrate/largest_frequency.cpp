@@ -48,27 +48,36 @@ FrequencyBracket largest_frequency(const Eigen::SparseMatrix<double>& k,
     // doi:10.1016/0024-3795(80)90167-6).
     std::vector<double> diagonal, side;
     Eigen::VectorXd before = Eigen::VectorXd::Zero(n);
-    double beta = 0;
+    double beta = 0, norm = 0;
     for (int i = 0; i < steps; ++i) {
         Eigen::VectorXd w = scale.cwiseProduct(k * scale.cwiseProduct(v)) - beta * before;
         const double alpha = v.dot(w);
         w -= alpha * v;
         diagonal.push_back(alpha);
         beta = w.norm();
-        // v spans an invariant space with all that a random start can reach.
-        if (beta <= 1e-14 * std::abs(alpha))
+        norm = std::max(norm, std::abs(alpha) + beta);
+        // The vectors span all that a random start can reach: what is left of w is rounding.
+        if (beta <= 1e-14 * norm)
             break;
         side.push_back(beta);
         before.swap(v);
         v = w / beta;
     }
     side.resize(diagonal.size() - 1);
+    if (norm == 0)
+        return {0, 0};
+    // Eigen's test for a vanished off-diagonal is meant for entries near 1; far from it the
+    // iteration ends unsorted.
+    for (double& x : diagonal)
+        x /= norm;
+    for (double& x : side)
+        x /= norm;
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
     ritz.computeFromTridiagonal(
         Eigen::Map<Eigen::VectorXd>(diagonal.data(), static_cast<Eigen::Index>(diagonal.size())),
         Eigen::Map<Eigen::VectorXd>(side.data(), static_cast<Eigen::Index>(side.size())),
         Eigen::EigenvaluesOnly);
-    const double largest = std::max(ritz.eigenvalues().tail<1>()[0], 0.0);
+    const double largest = norm * std::max(ritz.eigenvalues().maxCoeff(), 0.0);
     return {std::sqrt(largest), std::sqrt(largest / (1 - kShortfall))};
 }
 

@@ -45,9 +45,7 @@ BlockMatrix::BlockMatrix(std::span<const int> element, int corners, std::size_t 
     set_zero();
 }
 
-void BlockMatrix::set_zero() noexcept {
-    std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0);
-}
+void BlockMatrix::set_zero() noexcept { std::fill_n(matrix_.valuePtr(), matrix_.nonZeros(), 0.0); }
 
 void BlockMatrix::add(int row, int column, const Mat3& block) noexcept {
     const auto begin = neighbour_.begin() + first_[static_cast<std::size_t>(column)];

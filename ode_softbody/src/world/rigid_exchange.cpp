@@ -77,6 +77,10 @@ void RigidExchange::meet_rigid(double h, double dt) {
 
 ContactTally RigidExchange::add_forces(double dt) noexcept {
     ContactTally sum;
+    // First, because they are explicit: what a soft body's contacts see of the push to come keeps
+    // their energy right.
+    if (rigid_.size() != 0)
+        rigid_bearing_ += rigid_.add_forces(shadow_, dt);
     for (Contact& contact : contact_) {
         Body& body = *contact.body;
         const ContactTally tally = contact.law->add_force(
@@ -85,8 +89,6 @@ ContactTally RigidExchange::add_forces(double dt) noexcept {
         sum.tests += tally.tests;
         sum.bearing += tally.bearing;
     }
-    if (rigid_.size() != 0)
-        rigid_bearing_ += rigid_.add_forces(shadow_, dt);
     return sum;
 }
 

@@ -48,6 +48,9 @@ bool may_collide(dGeomID a, dGeomID b) noexcept {
 
 void sweep_rigid(dSpaceID space, double h, std::span<const std::unique_ptr<Body>> bodies,
                  RigidExchange& exchange) noexcept {
+    // ODE 0.16.2 aborts a program that lists a quadtree.
+    if (dGeomGetClass(reinterpret_cast<dGeomID>(space)) == dQuadTreeSpaceClass)
+        return;
     const int count = dSpaceGetNumGeoms(space);
     for (int i = 0; i < count; ++i) {
         const dGeomID geom = dSpaceGetGeom(space, i);

@@ -139,7 +139,8 @@ void SoftWorld::meet(double h) noexcept {
         if (body->geom() && !body->stopped() && dGeomIsEnabled(body->geom()))
             collide_now(body->geom());
     other_spaces_.collide();
-    sweep_rigid(space_, h, body_, exchange_);
+    if (space_ && !all_stopped(body_))
+        sweep_rigid(space_, h, body_, exchange_);
     meeting_ = false;
     for (const auto& body : body_)
         choose_pairs(*body, body->pair_, contact_chooser_, said_, body->rigid_pair_);

@@ -206,7 +206,11 @@ TEST_P(Fast, DoesNotTunnel) {
                        Quat(0.9, 0.3, 0.2, 0.1).normalized(), Vec3::Zero(), 0.003);
     std::printf("fast %d: leaves at %.1f m/s, depth %.1f mm, energy %+.2e\n",
                 static_cast<int>(kind), o.away, 1e3 * o.depth, o.energy_error);
-    EXPECT_NEAR(o.energy_error, 0, 0.03);
+    // A light body's springs are softened while they bear, which only loses: up to 45 % here.
+    // Unsoftened these cases keep 98 % and more, but a 0.1 kg plate under a falling box gained four
+    // times the energy of the fall, and thrown cards more.
+    EXPECT_LT(o.energy_error, 0.01);
+    EXPECT_GT(o.energy_error, -0.5);
     EXPECT_GT(o.away, -5); // the plate's own speed once it has all of the momentum: 0.25 m/s
 }
 

@@ -163,6 +163,28 @@ TEST(ViscousTime, IsTheLeastSafeBeta) {
             }
 }
 
+// Frequencies go with the root of the stiffness, whatever the numbers' size, also on meshes so
+// small and even that the search ends early.
+TEST(LargestFrequency, ScalesWithTheStiffness) {
+    for (const int cells : {1, 2, 3}) {
+        const TetMesh mesh = box_mesh({0.1, 0.1, 0.1}, cells, cells, cells);
+        double first = 0;
+        for (const double young : {1e2, 1e6, 3e6, 1e7, 3e7, 1e8, 2e11}) {
+            Solid solid = rubber();
+            solid.young = young;
+            const StvkLinear model(mesh, solid);
+            std::vector<double> inverse_mass;
+            for (const double m : model.mass())
+                inverse_mass.push_back(1 / m);
+            const double scaled =
+                largest_frequency(model.stiffness(node_array(mesh.node)), inverse_mass).lower /
+                std::sqrt(young);
+            first = first == 0 ? scaled : first;
+            EXPECT_NEAR(scaled, first, 1e-6 * first) << cells << " cells, E " << young;
+        }
+    }
+}
+
 TEST(LargestFrequency, OfNothingFreeIsZeroAndLimitsNothing) {
     const TetMesh mesh = box_mesh({1, 1, 1}, 1, 1, 1);
     const StvkLinear model(mesh, rubber());
