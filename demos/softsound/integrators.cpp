@@ -95,13 +95,18 @@ void write_csv(const std::string& path, const std::vector<Curve>& curves, double
         throw std::runtime_error(path + " cannot be written: check the folder and free space");
 }
 
+constexpr const char* kColours[] = {"#d0202e", "#f0a020", "#3a3a98", "#80c060", "#107040",
+                                    "#8fb8de", "#b060c0", "#202020", "#a08060", "#20b0b0"};
+
 /// One panel: a value of every integrator over w h. Where `value` is not a number the line breaks.
 template <class Value>
 void say_panel(std::ostringstream& say, const std::vector<Curve>& curves, Value value) {
     say << "plot ";
     for (std::size_t i = 0; i < curves.size(); ++i)
-        say << (i ? ", " : "") << "'-' using 1:2 with lines lw 2 dt " << i % 4 + 1 << " lc "
-            << i + 1 << " title " << plots::quoted(curves[i].name) << " noenhanced";
+        // Ever thinner, so that curves which coincide show beside each other.
+        say << (i ? ", " : "") << "'-' using 1:2 with lines lw " << curves.size() - i << " lc rgb '"
+            << kColours[i % std::size(kColours)] << "' title " << plots::quoted(curves[i].name)
+            << " noenhanced";
     say << "\n";
     for (const Curve& c : curves) {
         for (const Point& p : c.point) {

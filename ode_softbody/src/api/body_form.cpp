@@ -62,7 +62,7 @@ const char* dSoftBodyGetMaterialModel(dSoftBodyID id) {
 int dSoftBodySetIntegrator(dSoftBodyID id, const char* name) {
     require_id(name, __func__);
     Body* body = live(id, __func__);
-    if (!body)
+    if (!body || !may_edit(body->world(), __func__))
         return 0;
     BodyForm form = body->form();
     form.integrator = name;
