@@ -16,6 +16,10 @@ using Eigen::VectorXd;
 /// Up to here (some three seconds) the cubic order is factorised, and its count can be verified;
 /// above, it is refined from the quadratic vectors.
 constexpr double kDirectFlops = 20e9;
+/// Of a few partials, which the quartic order judges cheaply (half a minute): a refined mesh must
+/// not fall back on the wider band, or no tolerance would be met on it.
+constexpr double kDirectFlopsOfFew = 200e9;
+constexpr std::size_t kFew = 16;
 /// Up to here (a second) a solution of the order that only judges costs no more than refine().
 constexpr double kDirectJudge = 5e9;
 /// A band is never narrower [cents]: convergence of the eigenvalues and of refine().
@@ -270,7 +274,8 @@ ModalModel solve_with_band(const TetMesh& mesh, std::span<const Solid> solids,
                            const ModalOptions& options) {
     ModalOptions own = options;
     ModalProblem problem(mesh, solids, own);
-    if (options.order == 3 && problem.factor_flops() > kDirectFlops)
+    const bool few = options.max_modes > 0 && options.max_modes <= kFew;
+    if (options.order == 3 && problem.factor_flops() > (few ? kDirectFlopsOfFew : kDirectFlops))
         return judged_below(problem, options);
     return judged_above(problem, own, options);
 }
