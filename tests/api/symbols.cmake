@@ -1,7 +1,12 @@
-# Compares the symbols a shared library exports with those its header declares:
-# cmake -D nm=... -D library=... -D header=... -D mark=DSOFT_API -D interposed=... -P symbols.cmake
+# Compares the symbols a shared library exports with those the headers of a folder declare:
+# cmake -D nm=... -D library=... -D headers=... -D mark=DSOFT_API -D interposed=... -P symbols.cmake
 cmake_minimum_required(VERSION 3.25)
-file(READ ${header} text)
+file(GLOB files ${headers}/*.h)
+set(text "")
+foreach(file IN LISTS files)
+    file(READ ${file} part)
+    string(APPEND text "${part}")
+endforeach()
 string(REGEX REPLACE "/[*]([^*]|[*]+[^*/])*[*]+/" "" text "${text}")
 string(REGEX REPLACE "#[^\n]*" "" text "${text}")
 string(REGEX MATCHALL "${mark}[^(]*[(]" declarations "${text}")
@@ -30,7 +35,7 @@ list(LENGTH declared count)
 if(missing OR surplus)
     list(JOIN missing "\n  " missing)
     list(JOIN surplus "\n  " surplus)
-    message(FATAL_ERROR "${library} and ${header} disagree.\n"
+    message(FATAL_ERROR "${library} and ${headers} disagree.\n"
                         "declared but not exported:\n  ${missing}\n"
                         "exported but not declared:\n  ${surplus}\n")
 endif()

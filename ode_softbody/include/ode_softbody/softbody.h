@@ -1,5 +1,5 @@
 /** @file
- * Tetrahedral soft bodies for the Open Dynamics Engine.
+ * Tetrahedral soft bodies for the Open Dynamics Engine: the header that includes the others.
  *
  * Create a soft world beside an ODE world, load a mesh, make a body of it, and go on calling
  * dSpaceCollide and dWorldStep as before. Bodies deform, collide with the geoms of the space both
@@ -14,16 +14,17 @@
 #ifndef ODE_SOFTBODY_SOFTBODY_H
 #define ODE_SOFTBODY_SOFTBODY_H
 
-#include <ode_softbody/export.h>
+#include <ode_softbody/integrator.h>
+#include <ode_softbody/mesh.h>
+#include <ode_softbody/modes.h>
+#include <ode_softbody/solid.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
 typedef struct dxSoftWorld* dSoftWorldID;
-typedef struct dxSoftMesh* dSoftMeshID;
 typedef struct dxSoftBody* dSoftBodyID;
-typedef struct dxSoftModes* dSoftModesID;
 
 /* ---- World ------------------------------------------------------------------------------- */
 
@@ -68,221 +69,6 @@ typedef struct dSoftWorldStats {
     unsigned long soft_tests;     /**< surface points tested against a triangle of such a pair */
 } dSoftWorldStats;
 DSOFT_API int dSoftWorldGetStats(dSoftWorldID world, dSoftWorldStats* stats);
-
-/* ---- Mesh -------------------------------------------------------------------------------- */
-
-/** Reads linear or quadratic tetrahedra from Gmsh .msh (2.2, 4.1), TetGen .node/.ele, legacy .vtk
- * or Medit .mesh, chosen by the file's ending. The mesh belongs to the caller; bodies keep what
- * they need of it. */
-DSOFT_API dSoftMeshID dSoftMeshLoad(const char* path);
-
-/** Mesh from arrays. @param nodes xyz packed [m]. @param tets four node indices each, from 0. */
-DSOFT_API dSoftMeshID dSoftMeshCreate(const dReal* nodes, int node_count, const int* tets,
-                                      int tet_count);
-
-/** Box of sides x, y, z [m] centred on the origin, cut into nx*ny*nz cells. */
-DSOFT_API dSoftMeshID dSoftMeshCreateBox(dReal x, dReal y, dReal z, int nx, int ny, int nz);
-/** Bar along x from 0 to length [m], width along y, thickness along z. */
-DSOFT_API dSoftMeshID dSoftMeshCreateBar(dReal length, dReal width, dReal thickness, int nx, int ny,
-                                         int nz);
-/** Plate in the xy plane centred on the origin [m], thickness along z. */
-DSOFT_API dSoftMeshID dSoftMeshCreatePlate(dReal length, dReal width, dReal thickness, int nx,
-                                           int ny, int nz);
-/** Spherical shell, lowest point at z = -radius, open towards +z from polar angle `opening` [rad].
- */
-DSOFT_API dSoftMeshID dSoftMeshCreateBowl(dReal radius, dReal thickness, dReal opening, int rings,
-                                          int around, int layers);
-/** Tube along z from 0 to length [m]. */
-DSOFT_API dSoftMeshID dSoftMeshCreateTube(dReal length, dReal outer_radius, dReal inner_radius,
-                                          int along, int around, int layers);
-/** Solid sphere round the origin [m], `refinement` cells from centre to surface. */
-DSOFT_API dSoftMeshID dSoftMeshCreateSphere(dReal radius, int refinement);
-
-DSOFT_API void dSoftMeshDestroy(dSoftMeshID mesh);
-
-/** What a mesh is worth. Start with struct_size = sizeof(dSoftMeshQuality). */
-typedef struct dSoftMeshQuality {
-    unsigned struct_size;
-    int nodes;
-    int elements;
-    int surface_triangles;
-    int parts;          /**< pieces that share no node */
-    int worst;          /**< element of min_quality */
-    dReal min_quality;  /**< 1 regular tetrahedron, 0 flat */
-    dReal volume;       /**< [m^3] */
-    dReal min_edge;     /**< [m] */
-    dReal max_edge;     /**< [m] */
-    dReal bounds[6];    /**< xmin xmax ymin ymax zmin zmax [m], the order of dGeomGetAABB */
-    int doubtful_edges; /**< facets meet there at 35 to 80 degrees: a round of too few facets, or a
-                             corner? (less than about ten round; 0 on a second-order mesh) */
-} dSoftMeshQuality;
-DSOFT_API int dSoftMeshGetQuality(dSoftMeshID mesh, dSoftMeshQuality* quality);
-
-/** Multiplies all coordinates by `factor`: 0.001 for a mesh drawn in millimetres. */
-DSOFT_API int dSoftMeshScale(dSoftMeshID mesh, dReal factor);
-
-/** 1: elements of four nodes; 2: of ten, as read from a second-order file. */
-DSOFT_API int dSoftMeshGetOrder(dSoftMeshID mesh);
-/** Nodes xyz packed [m], in the mesh's order; borrowed while the mesh lives unscaled.
- * @param first  out, unless NULL: x of node 0.
- * @return node count. */
-DSOFT_API int dSoftMeshGetNodes(dSoftMeshID mesh, const dReal** first);
-/** Node indices of the elements, 4 or 10 each by the order; borrowed while the mesh lives.
- * @param first  out, unless NULL.
- * @return element count. */
-DSOFT_API int dSoftMeshGetElements(dSoftMeshID mesh, const int** first);
-/** Physical groups of the elements: 0 for a mesh without, which is one solid. */
-DSOFT_API int dSoftMeshGetGroupCount(dSoftMeshID mesh);
-/** Name of the i-th group, NULL past the last; borrowed while the mesh lives. */
-DSOFT_API const char* dSoftMeshGetGroupName(dSoftMeshID mesh, int i);
-
-/* ---- Material ---------------------------------------------------------------------------- */
-
-/** Isotropic solid: start from dSoftSolidDefault() or dSoftSolidPreset(), then change fields. */
-typedef struct dSoftSolid {
-    unsigned struct_size; /**< set by dSoftSolidDefault(); lets the struct grow */
-    dReal young;          /**< [Pa], > 0 */
-    dReal poisson;        /**< [-], -1 < poisson < 0.5 */
-    dReal density;        /**< at rest [kg/m^3], > 0 */
-    dReal phi;            /**< viscous counterpart of lambda [Pa s], >= 0 (P01 3.1) */
-    dReal psi;            /**< viscous counterpart of mu [Pa s], >= 0 (P01 3.1) */
-    dReal alpha;          /**< mass-proportional damping [1/s], >= 0 */
-    dReal beta;           /**< stiffness-proportional damping [s], >= 0 */
-    dReal loss_factor;    /**< [-], 0 to 1, the same at all frequencies. Adds to the damping above,
-                               and needs modes: see dSoftBodySetModalDamping() */
-} dSoftSolid;
-
-DSOFT_API dSoftSolid dSoftSolidDefault(void); /**< steel */
-/** Fills in a named material. @return 0 for an unknown name, after listing the known ones. */
-DSOFT_API int dSoftSolidPreset(const char* name, dSoftSolid* solid);
-/** Name of the i-th preset, NULL past the last. */
-DSOFT_API const char* dSoftSolidPresetName(int i);
-
-/* ---- Damping ----------------------------------------------------------------------------- */
-
-/* An amplitude that falls by exp(-d t) has the decay rate d [1/s]. It is told in four ways, of
- * which those with a frequency f [Hz] need it; right for Q above 5 or so. A number that isn't
- * positive gives 0 or infinity, as the formula does. */
-
-/** T60 = ln(1000) / d: time to fall by 60 dB [s]. */
-DSOFT_API dReal dSoftT60FromDecay(dReal decay);
-DSOFT_API dReal dSoftDecayFromT60(dReal t60);
-/** Quality factor Q = pi f / d. */
-DSOFT_API dReal dSoftQFromDecay(dReal decay, dReal frequency);
-DSOFT_API dReal dSoftDecayFromQ(dReal q, dReal frequency);
-/** Loss factor eta = d / (pi f) = 1 / Q. */
-DSOFT_API dReal dSoftLossFactorFromDecay(dReal decay, dReal frequency);
-DSOFT_API dReal dSoftDecayFromLossFactor(dReal loss_factor, dReal frequency);
-/** Of a solid at a frequency: (alpha + beta (2 pi f)^2) / 2 + pi f loss_factor, phi and psi aside.
- */
-DSOFT_API dReal dSoftDecayFromSolid(const dSoftSolid* solid, dReal frequency);
-/** Sets alpha and beta so that T60 is t1 [s] at f1 [Hz] and t2 at f2.
- * @return 0 after a sentence where no alpha, beta >= 0 do: T60 may not grow with frequency, nor
- * fall faster than its square. */
-DSOFT_API int dSoftSolidSetT60(dSoftSolid* solid, dReal f1, dReal t1, dReal f2, dReal t2);
-
-/* ---- Vibration modes --------------------------------------------------------------------- */
-
-/** Called now and then during dSoftModesCompute(), on its thread.
- * @param stage  "assemble", "factorise", "modes", "verify" or "cubic"; stages may come again.
- * @param share  of this stage that is done, 0 to 1.
- * @param modes  found so far.
- * @return 0 to cancel. */
-typedef int dSoftModesProgress(void* data, const char* stage, dReal share, int modes);
-
-/** How modes are computed. Start from dSoftModesOptionsDefault(). */
-typedef struct dSoftModesOptions {
-    unsigned struct_size;
-    int order;           /**< of the displacement in an element: 1, 2 or 3 (default), whatever the
-                              mesh's. 3 costs some three times 2 and errs a tenth of it */
-    int lumped;          /**< 1: diagonal mass; 0 (default): consistent, more accurate */
-    int count;           /**< lowest modes only; 0 (default): all up to max_frequency */
-    dReal max_frequency; /**< [Hz], default 22000; dInfinity needs a count */
-    int rebuilt_curves;  /**< 1 (default): facets that meet at less than 50 degrees are taken for a
-                              smooth surface, and its curvature is rebuilt; 0: facets are meant */
-    int use_cache;       /**< 1 (default): results are kept in $ODE_SOFTBODY_CACHE, else
-                              $XDG_CACHE_HOME/ode_softbody, else ~/.cache/ode_softbody */
-    dReal tolerance;     /**< [cents]: refine until no band of the first `tolerance_count` modes is
-                              wider; 0 (default): take the mesh as it is */
-    int tolerance_count; /**< default 8 */
-    int max_nodes;       /**< refinement to a tolerance stops here; default 200000 */
-    dSoftModesProgress* progress; /**< may be NULL */
-    void* progress_data;
-} dSoftModesOptions;
-DSOFT_API dSoftModesOptions dSoftModesOptionsDefault(void);
-
-/** Natural frequencies and shapes of a body at rest: small vibrations, undamped, no prestress.
- * Each frequency comes with a band, measured by the change from one element order to the next: it
- * holds the exact frequency of the meshed body in some 95 of 100 cases. It says nothing about
- * material constants. The result belongs to the caller and needs the mesh no more.
- * @param solids   one for each physical group of the mesh, in order, or one for all.
- * @param clamped  nodes held still; edges and faces between them are, too. NULL and 0: free.
- * @return NULL after a sentence: bad input, too little memory, tolerance not met, cancelled. */
-DSOFT_API dSoftModesID dSoftModesCompute(dSoftMeshID mesh, const dSoftSolid* solids,
-                                         int solid_count, const int* clamped, int clamped_count,
-                                         const dSoftModesOptions* options);
-DSOFT_API void dSoftModesDestroy(dSoftModesID modes);
-
-/** Elastic modes found; motions without strain are not among them. */
-DSOFT_API int dSoftModesGetCount(dSoftModesID modes);
-/** Frequencies [Hz], ascending; borrowed while the modes live. @return how many. */
-DSOFT_API int dSoftModesGetFrequencies(dSoftModesID modes, const dReal** first);
-/** Half-widths of the bands [cents, 1200 an octave]; borrowed. @return how many. */
-DSOFT_API int dSoftModesGetErrorCents(dSoftModesID modes, const dReal** first);
-/** Time in which each mode falls by 60 dB [s], by the damping of the solids; infinite without;
- * borrowed. Exact for one solid; of several, each counts by its share of the mode's energy, which
- * is taken from the shape on the mesh as given. @return how many. */
-DSOFT_API int dSoftModesGetT60(dSoftModesID modes, const dReal** first);
-/** Displacement of the mesh's nodes in a mode, mass-normalised [kg^-1/2]; borrowed.
- * @param first  out: x of node 0.  @param stride out: dReals from node to node.
- * @return node count; 0 for a mode that there isn't. */
-DSOFT_API int dSoftModesGetShape(dSoftModesID modes, int mode, const dReal** first, int* stride);
-
-/** The body that was solved. Start with struct_size = sizeof(dSoftModesInfo). */
-typedef struct dSoftModesInfo {
-    unsigned struct_size;
-    int nodes;           /**< of the mesh as given */
-    int elements;        /**< of the mesh as given */
-    int solved_nodes;    /**< of the mesh after rebuilding and refinement */
-    int refinements;     /**< cuts of each element into eight */
-    int rigid_modes;     /**< motions without strain: 6 of a free body */
-    int complete;        /**< 1: no mode below max_frequency is missing */
-    dReal mass;          /**< [kg], like the rest of the body with its surface rebuilt */
-    dReal volume;        /**< [m^3] */
-    dReal center[3];     /**< of mass [m] */
-    dReal inertia[3][3]; /**< about the centre of mass, mesh axes [kg m^2] */
-    int curved_edges;    /**< surface edges that were given curvature */
-    int limited_edges;   /**< whose curvature had to be cut down to keep elements valid */
-    int doubtful_edges;  /**< round or corner? see dSoftMeshQuality */
-} dSoftModesInfo;
-DSOFT_API int dSoftModesGetInfo(dSoftModesID modes, dSoftModesInfo* info);
-
-/* ---- Integrators ------------------------------------------------------------------------- */
-
-/** What is known of an integrator. Start with struct_size = sizeof(dSoftIntegratorInfo). */
-typedef struct dSoftIntegratorInfo {
-    unsigned struct_size;
-    int order;    /**< of convergence; damping by viscosity lowers central difference's to 1 */
-    int implicit; /**< 1: solves for the new state */
-    int forces;   /**< evaluations of the material a substep; of an implicit one, an iteration */
-} dSoftIntegratorInfo;
-
-/** What an integrator makes of a vibration of angular frequency w and damping ratio zeta in a
- * substep h, read off its own code. */
-typedef struct dSoftIntegratorResponse {
-    unsigned struct_size;
-    dReal amplification;      /**< factor on the amplitude a substep; above 1 it is unstable */
-    dReal artificial_damping; /**< damping ratio that the integrator adds */
-    dReal period_error;       /**< relative, T/T0 - 1; NaN where nothing swings */
-} dSoftIntegratorResponse;
-
-/** Name of the i-th integrator, NULL past the last; the first is the default. */
-DSOFT_API const char* dSoftIntegratorName(int i);
-DSOFT_API int dSoftIntegratorGetInfo(const char* name, dSoftIntegratorInfo* info);
-/** @param omega_h       w h [rad], > 0.
- *  @param damping_ratio zeta, >= 0 and finite. */
-DSOFT_API int dSoftIntegratorGetResponse(const char* name, dReal omega_h, dReal damping_ratio,
-                                         dSoftIntegratorResponse* response);
 
 /* ---- Body -------------------------------------------------------------------------------- */
 
