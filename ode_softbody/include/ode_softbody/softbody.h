@@ -67,6 +67,9 @@ typedef struct dSoftWorldStats {
                                        through a substep */
     unsigned long soft_looks;     /**< searches for near parts of such a pair's surfaces */
     unsigned long soft_tests;     /**< surface points tested against a triangle of such a pair */
+    unsigned long body_substeps;  /**< bodies moved by a substep: those at rest are not */
+    unsigned long mirror_steps;   /**< steps of jointed rigid bodies near soft ones */
+    unsigned long rigid_contacts; /**< contacts between rigid bodies that bore force in a substep */
 } dSoftWorldStats;
 DSOFT_API int dSoftWorldGetStats(dSoftWorldID world, dSoftWorldStats* stats);
 
@@ -291,5 +294,7 @@ DSOFT_API int dSoftWorldRemoveObserver(dSoftWorldID world, void* data);
 #ifdef __cplusplus
 }
 #endif
+
+#include <ode_softbody/rest.h>
 
 #endif

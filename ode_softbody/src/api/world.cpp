@@ -63,6 +63,9 @@ int dSoftWorldGetStats(dSoftWorldID id, dSoftWorldStats* out) {
     all.soft_pairs = stats.soft_pairs;
     all.soft_looks = stats.soft_looks;
     all.soft_tests = stats.soft_tests;
+    all.body_substeps = stats.body_substeps;
+    all.mirror_steps = world->exchange().mirror_steps();
+    all.rigid_contacts = world->exchange().rigid_contacts();
     all.observer_calls = stats.observer_calls;
     all.seconds = stats.seconds;
     all.observer_seconds = stats.observer_seconds;

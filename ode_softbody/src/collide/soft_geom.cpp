@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
-#include <vector>
+#include <unordered_set>
 
 namespace ode::soft {
 namespace {
@@ -14,8 +14,8 @@ struct GeomData {
 };
 
 std::mutex lock; // guards `live`: worlds may be stepped from several threads
-std::vector<dGeomID>& live_geoms() {
-    static std::vector<dGeomID> live;
+std::unordered_set<dGeomID>& live_geoms() {
+    static std::unordered_set<dGeomID> live;
     return live;
 }
 
@@ -68,7 +68,7 @@ dColliderFn* collider_with(int other_class) {
 
 void forget(dGeomID geom) noexcept {
     const std::lock_guard guard(lock);
-    std::erase(live_geoms(), geom);
+    live_geoms().erase(geom);
 }
 
 void destroyed(dGeomID geom) {
@@ -113,7 +113,7 @@ dGeomID create_soft_geom(dSpaceID space, SoftGeomClient& client) {
     data_of(geom) = {&client, false};
     {
         const std::lock_guard guard(lock);
-        live_geoms().push_back(geom);
+        live_geoms().insert(geom);
     }
     if (space)
         dSpaceAdd(space, geom);
@@ -132,8 +132,7 @@ void mark_moved(dGeomID geom) noexcept {
 
 SoftGeomClient* soft_geom_client(dGeomID geom) noexcept {
     const std::lock_guard guard(lock);
-    const auto& live = live_geoms();
-    return std::find(live.begin(), live.end(), geom) == live.end() ? nullptr : data_of(geom).client;
+    return live_geoms().contains(geom) ? data_of(geom).client : nullptr;
 }
 
 bool is_soft_geom(dGeomID geom) noexcept {

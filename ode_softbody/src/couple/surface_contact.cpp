@@ -111,7 +111,8 @@ double SurfaceContact::look(const SoftSide& points, const SoftSide& faces, doubl
         nearest = std::fmin(nearest, beyond);
         if (!(closest < reach) && !(facing < range)) {
             nearest = std::fmin(nearest, closest);
-            state = State{};
+            if (state.bears || state.was_outside) // far ones are many
+                state = State{};
             continue;
         }
         const double most = (facing < range ? std::fmax(closest, facing) : closest) + 2 * slack;

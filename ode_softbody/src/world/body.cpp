@@ -82,6 +82,7 @@ double Body::kinetic_energy() const noexcept {
 double Body::elastic_energy() const noexcept { return model_->energy(state_.position); }
 
 void Body::move_to(const Vec3& center) noexcept {
+    wake();
     const Vec3 offset = center - center_of_mass();
     for (std::size_t i = 0; i < state_.position.size(); ++i)
         state_.position[i] += offset;
@@ -89,6 +90,7 @@ void Body::move_to(const Vec3& center) noexcept {
 }
 
 void Body::rotate(const Quat& rotation) noexcept {
+    wake();
     const Mat3 turn = rotation.toRotationMatrix();
     const Vec3 center = center_of_mass();
     for (std::size_t i = 0; i < state_.position.size(); ++i) {
@@ -99,11 +101,13 @@ void Body::rotate(const Quat& rotation) noexcept {
 }
 
 void Body::set_velocity(const Vec3& velocity) noexcept {
+    wake();
     for (std::size_t i = 0; i < state_.velocity.size(); ++i)
         state_.velocity[i] = is_pinned(static_cast<int>(i)) ? Vec3::Zero() : velocity;
 }
 
 void Body::add_spin(const Vec3& omega) noexcept {
+    wake();
     const Vec3 center = center_of_mass();
     for (std::size_t i = 0; i < state_.velocity.size(); ++i)
         if (!is_pinned(static_cast<int>(i)))
@@ -114,6 +118,7 @@ void Body::hold(int node) noexcept {
     const auto i = static_cast<std::size_t>(node);
     if (inverse_mass_[i] == 0)
         return;
+    wake();
     inverse_mass_[i] = 0;
     modes_stale_ = true;
     state_.velocity[i].setZero();
@@ -144,6 +149,7 @@ void Body::each_middle(Visit visit) const {
 std::vector<int> Body::nail(std::span<const int> nodes) {
     std::vector<std::uint8_t> taken(mesh_.node.size());
     std::vector<int> all;
+    wake();
     modes_stale_ = true;
     const auto take = [&](int node) {
         if (is_held(node))
@@ -164,6 +170,7 @@ std::vector<int> Body::nail(std::span<const int> nodes) {
 
 void Body::release(int node) noexcept {
     const auto i = static_cast<std::size_t>(node);
+    wake();
     inverse_mass_[i] = 1 / mass()[i];
     modes_stale_ = true;
     std::erase(nailed_, node);
@@ -183,6 +190,7 @@ void Body::unpin() noexcept {
 }
 
 void Body::add_force(int node, const Vec3& force) noexcept {
+    wake();
     external_[static_cast<std::size_t>(node)] += force;
     has_external_ = true;
 }

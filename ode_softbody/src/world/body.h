@@ -3,6 +3,7 @@
 #include "base/live_id.h"
 #include "collide/soft_geom.h"
 #include "couple/node_contact.h"
+#include "couple/soft_surface.h"
 #include "integrate/integrator.h"
 #include "mesh/curve.h"
 #include "mesh/surface.h"
@@ -31,6 +32,13 @@ struct BodyForm {
     std::string integrator = "central-difference"; ///< one of integrator_kinds()
     bool modal_damping = false;                    ///< ModalDamping instead of viscous stress
     DampingTable damping_table; ///< unless empty: instead of the solids' damping; modal
+};
+
+/// What counts as rest: what is cut off is below -90 dB of 20 Pa at a metre, see tests/README.md.
+struct RestLimits {
+    double speed = 1e-3;       ///< of any node [m/s]
+    double acceleration = 0.1; ///< of any node [m/s^2]; of an implicit method nothing is known
+    double time = 0.25;        ///< [s]
 };
 
 /// A soft body: a meshed solid, its motion, its surface and its geom in ODE's space.
@@ -113,6 +121,19 @@ public:
     void set_self_contact(bool on) noexcept { self_contact_ = on; }
 
     bool stopped() const noexcept { return stopped_; }
+    /// At rest: kept as it is, and left out of everything, until it is woken.
+    bool asleep() const noexcept { return asleep_; }
+    bool moves() const noexcept { return !stopped_ && !asleep_; }
+    bool auto_disable() const noexcept { return auto_disable_; }
+    void set_auto_disable(bool on) noexcept { auto_disable_ = on; }
+    const RestLimits& rest_limits() const noexcept { return rest_limits_; }
+    void set_rest_limits(const RestLimits& limits) noexcept { rest_limits_ = limits; }
+    void wake() noexcept;
+    void fall_asleep() noexcept;
+    bool has_come_to_rest() const noexcept { ///< and would sleep
+        return auto_disable_ && quiet_ >= rest_limits_.time && nailed_.empty();
+    }
+    bool is_nailed() const noexcept { return !nailed_.empty(); }
     const StrainExtremes& extremes() const noexcept { return extremes_; } ///< of the last step
     /// Substep that is stable at the stretch lately met [s].
     double safe_substep() const noexcept { return substep_ / margin_; }
@@ -126,6 +147,7 @@ private:
     friend class Attachments;
     friend class RigidExchange;
     friend class SoftExchange;
+    friend class Slumber;
 
     /// Takes over a mesh that has the nodes of the body's own first. @throws InputError
     void build(TetMesh mesh, const BodyForm& form, bool damped_by_modes);
@@ -160,6 +182,8 @@ private:
     void take_load(const Vec3& gravity) noexcept;
     void begin_substep() noexcept;    ///< force_ becomes all that acts but contact
     void advance(double dt) noexcept; ///< by force_
+    /// Before advance(), with all force known. @param passed  since the last look [s].
+    void watch_rest(double passed) noexcept;
     void note(const StrainExtremes& now) noexcept;
     void end_step() noexcept;
     /// Makes room for the stretch met in this step. @return whether that took a shorter substep.
@@ -213,8 +237,14 @@ private:
     int failures_ = 0; ///< attempts at this step that went unstable
     bool stepped_ = false;
     bool stopped_ = false;
-    std::vector<dGeomID> pair_;         ///< geoms near in this step
-    std::vector<RigidPair> rigid_pair_; ///< those of them that bear contact in this step
+    bool asleep_ = false;
+    bool auto_disable_ = false;
+    RestLimits rest_limits_;
+    std::size_t place_ = 0;                     ///< among the world's bodies; Slumber's
+    double quiet_ = 0;                          ///< within rest_limits_ for so long [s]
+    std::unique_ptr<SoftSurface> soft_surface_; ///< made when it first meets a soft body
+    std::vector<dGeomID> pair_;                 ///< geoms near in this step
+    std::vector<RigidPair> rigid_pair_;         ///< those of them that bear contact in this step
     dGeomID geom_ = nullptr;
     LiveId<Body> id_{*this};
 };

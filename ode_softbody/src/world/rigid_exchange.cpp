@@ -22,10 +22,11 @@ void RigidExchange::begin_step(dWorldID world, std::span<const std::unique_ptr<B
     h_ = h;
     shadow_.clear();
     gather_islands(world, bodies, h, dt);
+    lay_aside_sleepers();
     for (Contact& contact : contact_)
         contact.current = false;
     for (const std::unique_ptr<Body>& body : bodies) {
-        if (body->stopped())
+        if (!body->moves())
             continue;
         for (const RigidPair& pair : body->rigid_pair_) {
             const std::optional<RigidShape> shape = capture_shape(pair.geom);
@@ -44,11 +45,22 @@ void RigidExchange::begin_step(dWorldID world, std::span<const std::unique_ptr<B
     meet_rigid(h, dt);
 }
 
+void RigidExchange::lay_aside_sleepers() {
+    const auto move_if = [](std::vector<Contact>& from, std::vector<Contact>& to, bool asleep) {
+        for (Contact& contact : from)
+            if (contact.body->asleep() == asleep)
+                to.push_back(std::move(contact));
+        std::erase_if(from, [](const Contact& contact) { return !contact.law; });
+    };
+    move_if(dormant_, contact_, false);
+    move_if(contact_, dormant_, true);
+}
+
 void RigidExchange::gather_islands(dWorldID world, std::span<const std::unique_ptr<Body>> bodies,
                                    double h, double dt) {
     islands_.begin_step();
     for (const std::unique_ptr<Body>& body : bodies) {
-        if (body->stopped())
+        if (!body->moves())
             continue;
         for (const RigidPair& pair : body->rigid_pair_)
             islands_.reach(dGeomGetBody(pair.geom), record_);
@@ -168,7 +180,15 @@ void RigidExchange::write_back() noexcept {
 }
 
 void RigidExchange::forget(const Body& body) noexcept {
-    std::erase_if(contact_, [&](const Contact& contact) { return contact.body == &body; });
+    for (std::vector<Contact>* list : {&contact_, &dormant_})
+        std::erase_if(*list, [&](const Contact& contact) { return contact.body == &body; });
+}
+
+std::ptrdiff_t RigidExchange::island_of(dBodyID body) const noexcept {
+    const auto members = islands_.members();
+    const auto found =
+        std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.body == body; });
+    return found == members.end() ? -1 : static_cast<std::ptrdiff_t>(found->island);
 }
 
 std::ptrdiff_t RigidExchange::index_of(dBodyID body) const noexcept {

@@ -55,6 +55,8 @@ public:
 
     /// The shadow of a body in this step, or nullptr.
     const RigidShadow* find_shadow(dBodyID body) const noexcept;
+    const RigidIslands& islands() const noexcept { return islands_; } ///< of this step
+    std::ptrdiff_t island_of(dBodyID body) const noexcept;            ///< -1: in none
     unsigned long mirror_steps() const noexcept { return mirror_.steps(); }
     /// Contacts between rigid bodies that bore force, summed over substeps.
     unsigned long rigid_contacts() const noexcept { return rigid_bearing_; }
@@ -67,6 +69,7 @@ private:
         bool current = true; ///< met in this step
     };
 
+    void lay_aside_sleepers();
     void gather_islands(dWorldID world, std::span<const std::unique_ptr<Body>> bodies, double h,
                         double dt);
     void meet_rigid(double h, double dt);
@@ -77,6 +80,7 @@ private:
 
     double h_ = 0; ///< of this step [s]
     std::vector<Contact> contact_;
+    std::vector<Contact> dormant_; ///< of soft bodies at rest, for friction's memory
     std::vector<RigidShadow> shadow_;
     std::vector<RigidShadow> before_; ///< of the step before
     bool stepped_ = true;             ///< write_back() has followed begin_step()

@@ -3,60 +3,92 @@
 #include "world/body.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 namespace ode::soft {
 
+bool SoftExchange::before(const Pair& x, const Pair& y) noexcept {
+    return std::pair(x.a->number_, x.b->number_) < std::pair(y.a->number_, y.b->number_);
+}
+
 void SoftExchange::begin_step(std::span<const std::unique_ptr<Body>> bodies) {
-    std::swap(last_, contact_);
-    contact_.clear();
+    collect_pairs(bodies);
+    merge_pairs();
+    for (Contact* contact : active_) {
+        const auto partner = [](Body& body) {
+            return SoftPartner{surface_of(body), body.contact_law(), body.substep()};
+        };
+        contact->law->begin_step(partner(*contact->pair.a), partner(*contact->pair.b));
+        for (const Body* body : {contact->pair.a, contact->pair.b})
+            if (!body->moves() && held_.size() < body->mass().size())
+                held_.assign(body->mass().size(), 0.0);
+    }
+}
+
+void SoftExchange::collect_pairs(std::span<const std::unique_ptr<Body>> bodies) {
+    met_.clear();
     for (const std::unique_ptr<Body>& body : bodies) {
-        if (body->self_contact() && !body->stopped())
-            meet(*body, *body);
+        if (body->self_contact() && body->moves())
+            met_.push_back({body.get(), body.get()});
         for (const dGeomID geom : body->pair_) {
             Body* const other = Body::behind(geom);
             if (!other || &other->world() != &body->world() || other == body.get())
                 continue;
-            if (body->stopped() && other->stopped())
+            if (!body->moves() && !other->moves())
                 continue;
             // ODE tells one of the two, whichever its space comes upon first.
             if (body->number_ < other->number_)
-                meet(*body, *other);
+                met_.push_back({body.get(), other});
             else
-                meet(*other, *body);
+                met_.push_back({other, body.get()});
         }
     }
-    // Sums of forces must not depend on the order in which a space finds its pairs.
-    std::sort(contact_.begin(), contact_.end(), [](const Contact& x, const Contact& y) {
-        return std::pair(x.a->number_, x.b->number_) < std::pair(y.a->number_, y.b->number_);
-    });
-    last_.clear();
-    for (const Contact& contact : contact_) {
-        const auto partner = [&](Body& body) {
-            return SoftPartner{surface_of(body), body.contact_law(), body.substep()};
-        };
-        contact.law->begin_step(partner(*contact.a), partner(*contact.b));
-        for (const Body* body : {contact.a, contact.b})
-            if (body->stopped() && held_.size() < body->mass().size())
-                held_.assign(body->mass().size(), 0.0);
+    std::sort(met_.begin(), met_.end(), before);
+    const auto same = [](const Pair& x, const Pair& y) { return x.a == y.a && x.b == y.b; };
+    met_.erase(std::unique(met_.begin(), met_.end(), same), met_.end());
+}
+
+void SoftExchange::merge_pairs() {
+    merged_.clear();
+    auto known = contact_.begin();
+    const auto keep_sleepers = [&](auto up_to) {
+        for (; known != up_to; ++known)
+            if (known->pair.a->asleep() || known->pair.b->asleep())
+                merged_.push_back(std::move(*known));
+    };
+    for (const Pair& pair : met_) {
+        keep_sleepers(std::find_if(known, contact_.end(),
+                                   [&](const Contact& c) { return !before(c.pair, pair); }));
+        if (known != contact_.end() && !before(pair, known->pair))
+            merged_.push_back(std::move(*known++));
+        else
+            merged_.push_back(
+                {pair, std::make_unique<SoftContact>(surface_of(*pair.a), surface_of(*pair.b))});
     }
+    keep_sleepers(contact_.end());
+    std::swap(contact_, merged_);
+    active_.clear();
+    auto met = met_.begin();
+    for (Contact& contact : contact_)
+        if (met != met_.end() && !before(contact.pair, *met)) {
+            active_.push_back(&contact);
+            ++met;
+        }
 }
 
 SoftContactTally SoftExchange::add_forces(double dt) {
     SoftContactTally sum;
     ++substep_;
-    for (const Contact& contact : contact_) {
+    for (const Contact* contact : active_) {
         const auto side = [&](Body& body) {
-            const std::span<const double> inverse_mass =
-                body.stopped() ? held_ : body.inverse_mass_;
+            const std::span<const double> inverse_mass = body.moves() ? body.inverse_mass_ : held_;
             return SoftSide{body.state_.position, body.state_.velocity, inverse_mass, body.force_};
         };
-        const SoftContactTally tally =
-            contact.law->add_force(side(*contact.a), side(*contact.b), dt, substep_);
-        contact.a->bearing_points_ += tally.bearing;
-        if (contact.b != contact.a)
-            contact.b->bearing_points_ += tally.bearing;
+        const auto& [a, b] = contact->pair;
+        const SoftContactTally tally = contact->law->add_force(side(*a), side(*b), dt, substep_);
+        a->bearing_points_ += tally.bearing;
+        if (b != a)
+            b->bearing_points_ += tally.bearing;
         sum.looks += tally.looks;
         sum.tests += tally.tests;
         sum.bearing += tally.bearing;
@@ -65,30 +97,15 @@ SoftContactTally SoftExchange::add_forces(double dt) {
 }
 
 void SoftExchange::forget(const Body& body) noexcept {
-    std::erase_if(contact_, [&](const Contact& c) { return c.a == &body || c.b == &body; });
-    std::erase_if(surface_, [&](const Surface& s) { return s.body == &body; });
+    active_.clear();
+    std::erase_if(contact_,
+                  [&](const Contact& c) { return c.pair.a == &body || c.pair.b == &body; });
 }
 
-SoftSurface& SoftExchange::surface_of(const Body& body) {
-    const auto found = std::find_if(surface_.begin(), surface_.end(),
-                                    [&](const Surface& s) { return s.body == &body; });
-    if (found != surface_.end())
-        return *found->surface;
-    return *surface_
-                .emplace_back(Surface{
-                    &body, std::make_unique<SoftSurface>(body.contact_nodes_, body.mesh().node)})
-                .surface;
-}
-
-void SoftExchange::meet(Body& a, Body& b) {
-    const auto same = [&](const Contact& c) { return c.a == &a && c.b == &b; };
-    if (std::any_of(contact_.begin(), contact_.end(), same))
-        return;
-    const auto found = std::find_if(last_.begin(), last_.end(), same);
-    if (found != last_.end() && found->law)
-        contact_.push_back(std::move(*found));
-    else
-        contact_.push_back({&a, &b, std::make_unique<SoftContact>(surface_of(a), surface_of(b))});
+SoftSurface& SoftExchange::surface_of(Body& body) {
+    if (!body.soft_surface_)
+        body.soft_surface_ = std::make_unique<SoftSurface>(body.contact_nodes_, body.mesh().node);
+    return *body.soft_surface_;
 }
 
 } // namespace ode::soft

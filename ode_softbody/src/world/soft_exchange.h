@@ -10,10 +10,13 @@ namespace ode::soft {
 
 class Body;
 
-/// Everything between soft bodies during one ODE step: which pairs there are, and what each body's
-/// surface needs for it. A body that meets no other, and not itself, has nothing here.
+/// Everything between soft bodies during one ODE step. A body that meets no other, and not itself,
+/// has nothing here.
 ///
-/// Contacts outlive the step while their pair stays near, for friction's memory.
+/// Contacts outlive the step while their pair stays near, or sleeps, for friction's memory. Pairs
+/// are kept in the order in which bodies were made, so that a step sorts those it met and merges
+/// them with those it knew: n log n, and sums of forces don't depend on the order in which a space
+/// finds its pairs.
 class SoftExchange {
 public:
     /// Takes up the pairs that the bodies' geoms have met, and bodies with self contact. One that
@@ -23,27 +26,29 @@ public:
     /// Adds contact forces to the bodies' forces.
     SoftContactTally add_forces(double dt);
 
-    std::size_t pairs() const noexcept { return contact_.size(); } ///< of the step
+    std::size_t pairs() const noexcept { return active_.size(); } ///< of the step
 
     void forget(const Body& body) noexcept; ///< a body is going
 
 private:
-    struct Surface {
-        const Body* body;
-        std::unique_ptr<SoftSurface> surface;
-    };
-    struct Contact {
+    struct Pair { ///< the body made first comes first; twice the same: self contact
         Body* a;
         Body* b;
+    };
+    struct Contact {
+        Pair pair;
         std::unique_ptr<SoftContact> law;
     };
 
-    SoftSurface& surface_of(const Body& body);
-    void meet(Body& a, Body& b);
+    void collect_pairs(std::span<const std::unique_ptr<Body>> bodies);
+    void merge_pairs();
+    static bool before(const Pair& x, const Pair& y) noexcept;
+    static SoftSurface& surface_of(Body& body);
 
-    std::vector<Surface> surface_;
-    std::vector<Contact> contact_; ///< of this step, by the order in which bodies were made
-    std::vector<Contact> last_;    ///< of the step before, while begin_step() runs
+    std::vector<Pair> met_;        ///< in this step, ascending
+    std::vector<Contact> contact_; ///< ascending
+    std::vector<Contact> merged_;  ///< scratch of merge_pairs()
+    std::vector<Contact*> active_; ///< those of this step
     std::vector<double> held_;     ///< inverse masses of a body that stands still: zeros
     unsigned long substep_ = 0;
 };

@@ -29,8 +29,13 @@ constexpr double kStretchLimit = 10;
 // A step with more substeps takes minutes at best: it was meant otherwise.
 constexpr double kMostSubsteps = 1e7;
 
-bool all_stopped(std::span<const std::unique_ptr<Body>> bodies) noexcept {
-    return std::all_of(bodies.begin(), bodies.end(), [](const auto& b) { return b->stopped(); });
+bool none_moves(std::span<const std::unique_ptr<Body>> bodies) noexcept {
+    return std::none_of(bodies.begin(), bodies.end(), [](const auto& b) { return b->moves(); });
+}
+
+/// Rigid bodies in a quadtree can't be listed: sleepers look for them there.
+bool is_quadtree(dSpaceID space) noexcept {
+    return dGeomGetClass(reinterpret_cast<dGeomID>(space)) == dQuadTreeSpaceClass;
 }
 
 } // namespace
@@ -47,6 +52,7 @@ Body& SoftWorld::create_body(const TetMesh& mesh, std::span<const Solid> solids)
         throw InputError("the space of the soft world is gone; make a soft world in another one");
     Body& body = *body_.emplace_back(std::make_unique<Body>(*this, mesh, solids));
     body.number_ = made_++;
+    body.set_auto_disable(dWorldGetAutoDisableFlag(world_) != 0);
     return body;
 }
 
@@ -102,16 +108,20 @@ bool SoftWorld::begin_step(double h) noexcept {
     stats_.seconds += seconds_since(start);
     watch_step();
     // Else there are no shadows of this step, or those of an attempt that failed.
-    if (!all_stopped(body_))
+    if (!none_moves(body_)) {
+        slumber_.decide(body_, exchange_);
         exchange_.hand_over();
+    }
     return true;
 }
 
 void SoftWorld::end_step() noexcept {
-    if (!all_stopped(body_))
+    if (!none_moves(body_))
         exchange_.write_back();
     for (const auto& body : body_)
-        body->moved();
+        if (body->moves())
+            body->moved();
+    slumber_.carry_out();
     other_spaces_.clear();
     stepping_ = false;
     drop_past_observers();
@@ -129,33 +139,37 @@ void SoftWorld::meet(double h) noexcept {
     meeting_ = true;
     for (const auto& body : body_) {
         body->pair_.clear();
-        if (!body->geom() || body->stopped())
-            continue;
-        if (h != last_step_)
-            body->moved(); // its box covers the way of a step
+        // Its box covers the way of a step.
+        if (body->geom() && body->moves() && h != last_step_)
+            body->moved();
     }
     last_step_ = h;
+    const bool sleepers_look = space_ && is_quadtree(space_);
     for (const auto& body : body_)
-        if (body->geom() && !body->stopped() && dGeomIsEnabled(body->geom()))
+        if (body->geom() && (body->moves() || (sleepers_look && body->asleep())) &&
+            dGeomIsEnabled(body->geom()))
             collide_now(body->geom());
     other_spaces_.collide();
-    if (space_ && !all_stopped(body_))
+    if (space_ &&
+        std::any_of(body_.begin(), body_.end(), [](const auto& body) { return !body->stopped(); }))
         sweep_rigid(space_, h, body_, exchange_);
+    slumber_.rouse(body_);
     meeting_ = false;
     for (const auto& body : body_)
-        choose_pairs(*body, body->pair_, contact_chooser_, said_, body->rigid_pair_);
+        if (body->moves())
+            choose_pairs(*body, body->pair_, contact_chooser_, said_, body->rigid_pair_);
 }
 
 double SoftWorld::common_substep(double h) const noexcept {
     double least = h;
     for (const auto& body : body_)
-        if (!body->stopped())
+        if (body->moves())
             least = std::min(least, body->safe_substep());
     return h / std::ceil(h / least);
 }
 
 bool SoftWorld::advance(double h) noexcept {
-    if (all_stopped(body_))
+    if (none_moves(body_))
         return true;
     const double first = common_substep(h);
     attachments_.announce(exchange_);
@@ -163,13 +177,14 @@ bool SoftWorld::advance(double h) noexcept {
     attachments_.begin_step(exchange_, h, first);
     soft_exchange_.begin_step(body_);
     for (const auto& body : body_)
-        body->begin_step();
+        if (body->moves())
+            body->begin_step();
     double done = 0;
     while (done < h) {
         const double dt = common_substep(h - done);
         const long substeps = std::lround((h - done) / dt);
         for (const auto& body : body_)
-            if (!body->stopped())
+            if (body->moves())
                 body->fit_velocity(dt);
         const long taken = run_substeps(time_ + done, dt, substeps);
         if (taken == 0)
@@ -177,7 +192,8 @@ bool SoftWorld::advance(double h) noexcept {
         done = taken == substeps ? h : done + static_cast<double>(taken) * dt;
     }
     for (const auto& body : body_)
-        body->end_step();
+        if (!body->asleep())
+            body->end_step();
     return true;
 }
 
@@ -188,10 +204,13 @@ long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
     const bool observed = std::any_of(observer_.begin(), observer_.end(),
                                       [](const auto& o) { return o && o->wants_substeps(); });
     for (const auto& body : body_)
-        body->take_load(gravity);
+        if (body->moves())
+            body->take_load(gravity);
+    long looked = 0;
     for (long i = 1; i <= substeps; ++i) {
+        const bool look = i % kWatchInterval == 0 || i == substeps;
         for (const auto& body : body_)
-            if (!body->stopped())
+            if (body->moves())
                 body->begin_substep();
         const ContactTally tally = exchange_.add_forces(dt);
         stats_.contact_tests += tally.tests;
@@ -204,19 +223,23 @@ long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
         stats_.contact_points += soft.bearing;
         exchange_.advance(dt);
         for (const auto& body : body_)
-            if (!body->stopped()) {
+            if (body->moves()) {
+                if (look && body->auto_disable())
+                    body->watch_rest(static_cast<double>(i - looked) * dt);
                 body->advance(dt);
                 stats_.element_steps += body->mesh().element_count();
+                ++stats_.body_substeps;
             }
         attachments_.follow(exchange_);
         ++stats_.substeps;
-        const bool look = i % kWatchInterval == 0 || i == substeps;
+        if (look)
+            looked = i;
         if (look && !all_sound())
             return 0;
         if (observed)
             show_substep(start + static_cast<double>(i) * dt, dt);
         if (look && std::any_of(body_.begin(), body_.end(),
-                                [](const auto& b) { return b->adapt_margin(); }))
+                                [](const auto& b) { return b->moves() && b->adapt_margin(); }))
             return i;
     }
     return substeps;
@@ -224,13 +247,14 @@ long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
 
 bool SoftWorld::all_sound() noexcept {
     const auto failed = std::find_if(body_.begin(), body_.end(), [](const auto& body) {
-        return !body->stopped() &&
+        return body->moves() &&
                !(body->extremes().max_stretch < kStretchLimit && body->is_finite());
     });
     if (failed == body_.end())
         return true;
     for (const auto& body : body_)
-        body->roll_back();
+        if (body->moves())
+            body->roll_back();
     // Once more with the substep that the stretch reached asks for; then no more.
     Body& body = **failed;
     if (++body.failures_ > 1) {
@@ -246,7 +270,7 @@ bool SoftWorld::all_sound() noexcept {
 void SoftWorld::show_substep(double time, double dt) noexcept {
     const auto start = Clock::now();
     for (const auto& body : body_) {
-        if (body->stopped())
+        if (!body->moves())
             continue;
         each_observer([&](Observer& observer) {
             if (!observer.wants_substeps())

@@ -10,6 +10,7 @@
 #include "world/other_spaces.h"
 #include "world/rigid_exchange.h"
 #include "world/rigid_pairs.h"
+#include "world/slumber.h"
 #include "world/soft_exchange.h"
 
 #include <memory>
@@ -28,6 +29,7 @@ struct WorldStats {
     unsigned long soft_pairs = 0;
     unsigned long soft_looks = 0;
     unsigned long soft_tests = 0;
+    unsigned long body_substeps = 0;
     unsigned long observer_calls = 0;
     double seconds = 0;          ///< time in substeps, observers included [s]
     double observer_seconds = 0; ///< time in observers [s]
@@ -106,7 +108,7 @@ private:
     /// Collects what is near each body, in its own space and in those that the application has
     /// collided it with, and settles which pairs bear contact, and how.
     void meet(double h) noexcept;
-    /// The substep that suits all bodies, dividing h [s].
+    /// The substep that suits all bodies that move, dividing h [s].
     double common_substep(double h) const noexcept;
     /// Soft bodies, contacts and observers for h seconds. @return false when a body went unstable:
     /// it is then marked stopped and everything is as it was before the call.
@@ -142,6 +144,7 @@ private:
     RigidExchange exchange_;
     Attachments attachments_;
     SoftExchange soft_exchange_;
+    Slumber slumber_;
     std::vector<std::unique_ptr<Body>> body_;
     std::vector<std::unique_ptr<Observer>> observer_;      ///< null: removed while busy
     std::vector<std::unique_ptr<Observer>> past_observer_; ///< removed, maybe still on the stack
