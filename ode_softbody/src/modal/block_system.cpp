@@ -1,40 +1,15 @@
 #include "modal/block_system.h"
 
 #include "modal/avx2.h"
+#include "modal/block_rows.h"
 
 #include <cassert>
 
 namespace ode::soft {
 namespace {
 
-constexpr int kLanes = 8; ///< vectors handled at once: 3 x 8 sums stay in registers
-
 template <int lanes>
-[[gnu::always_inline]] inline void stiffness_body(const BlockSystem& s, const double* x, double* y,
-                                                  std::size_t stride) {
-    const std::size_t nodes = s.node_count();
-    for (std::size_t i = 0; i < nodes; ++i) {
-        double sum[3][lanes] = {};
-        for (int p = s.start[i]; p < s.start[i + 1]; ++p) {
-            const double* k = &s.stiffness[9 * static_cast<std::size_t>(p)];
-            const double* from =
-                x + 3 * stride * static_cast<std::size_t>(s.column[static_cast<std::size_t>(p)]);
-            for (int c = 0; c < 3; ++c, from += stride)
-                for (int v = 0; v < lanes; ++v) {
-                    sum[0][v] += k[c] * from[v];
-                    sum[1][v] += k[3 + c] * from[v];
-                    sum[2][v] += k[6 + c] * from[v];
-                }
-        }
-        double* to = y + 3 * stride * i;
-        for (int r = 0; r < 3; ++r, to += stride)
-            for (int v = 0; v < lanes; ++v)
-                to[v] = sum[r][v];
-    }
-}
-
-template <int lanes>
-[[gnu::always_inline]] inline void mass_body(const BlockSystem& s, const double* x, double* y,
+[[gnu::always_inline]] inline void mass_rows(const BlockSystem& s, const double* x, double* y,
                                              std::size_t stride) {
     const std::size_t nodes = s.node_count();
     for (std::size_t i = 0; i < nodes; ++i) {
@@ -54,49 +29,42 @@ template <int lanes>
     }
 }
 
-// The same arithmetic in the same order at either width, and no fused operations: equal bits.
-using Kernel = void (*)(const BlockSystem&, const double*, double*, std::size_t);
-void stiffness_one(const BlockSystem& s, const double* x, double* y, std::size_t stride) {
-    stiffness_body<1>(s, x, y, stride);
-}
-void stiffness_lanes(const BlockSystem& s, const double* x, double* y, std::size_t stride) {
-    stiffness_body<kLanes>(s, x, y, stride);
-}
+template <int lanes>
 ODE_SOFTBODY_AVX2 void stiffness_wide(const BlockSystem& s, const double* x, double* y,
                                       std::size_t stride) {
-    stiffness_body<kLanes>(s, x, y, stride);
+    stiffness_rows<double, lanes>(s, s.stiffness.data(), x, y, stride);
 }
-void mass_one(const BlockSystem& s, const double* x, double* y, std::size_t stride) {
-    mass_body<1>(s, x, y, stride);
-}
-void mass_lanes(const BlockSystem& s, const double* x, double* y, std::size_t stride) {
-    mass_body<kLanes>(s, x, y, stride);
-}
+template <int lanes>
 ODE_SOFTBODY_AVX2 void mass_wide(const BlockSystem& s, const double* x, double* y,
                                  std::size_t stride) {
-    mass_body<kLanes>(s, x, y, stride);
-}
-
-void multiply(const BlockSystem& system, const RowMatrix& x, RowMatrix& y, Kernel lanes,
-              Kernel one) {
-    assert(x.rows() == system.size());
-    y.resize(x.rows(), x.cols());
-    const auto stride = static_cast<std::size_t>(x.cols());
-    std::size_t v = 0;
-    for (; v + kLanes <= stride; v += kLanes)
-        lanes(system, x.data() + v, y.data() + v, stride);
-    for (; v < stride; ++v)
-        one(system, x.data() + v, y.data() + v, stride);
+    mass_rows<lanes>(s, x, y, stride);
 }
 
 } // namespace
 
 void multiply_stiffness(const BlockSystem& system, const RowMatrix& x, RowMatrix& y) {
-    multiply(system, x, y, has_avx2() ? stiffness_wide : stiffness_lanes, stiffness_one);
+    assert(x.rows() == system.size());
+    y.resize(x.rows(), x.cols());
+    const auto stride = static_cast<std::size_t>(x.cols());
+    in_lanes(stride, [&]<int lanes>(std::integral_constant<int, lanes>, std::size_t v) {
+        if (has_avx2())
+            stiffness_wide<lanes>(system, x.data() + v, y.data() + v, stride);
+        else
+            stiffness_rows<double, lanes>(system, system.stiffness.data(), x.data() + v,
+                                          y.data() + v, stride);
+    });
 }
 
 void multiply_mass(const BlockSystem& system, const RowMatrix& x, RowMatrix& y) {
-    multiply(system, x, y, has_avx2() ? mass_wide : mass_lanes, mass_one);
+    assert(x.rows() == system.size());
+    y.resize(x.rows(), x.cols());
+    const auto stride = static_cast<std::size_t>(x.cols());
+    in_lanes(stride, [&]<int lanes>(std::integral_constant<int, lanes>, std::size_t v) {
+        if (has_avx2())
+            mass_wide<lanes>(system, x.data() + v, y.data() + v, stride);
+        else
+            mass_rows<lanes>(system, x.data() + v, y.data() + v, stride);
+    });
 }
 
 BlockSystem restrict_to(const BlockSystem& system, const std::vector<char>& keep) {

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raise when the numbers that solve_modes() gives, or the file's layout, change.
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 constexpr char kMagic[8] = {'O', 'S', 'B', 'm', 'o', 'd', 'e', '\n'};
 
 /// Two FNV-1a hashes of 64 bits with different offsets, each stirred at the end (SplitMix64).

@@ -157,6 +157,13 @@ EigenPairs ModalProblem::solve() {
     return pairs;
 }
 
+Index ModalProblem::modes_below(double eigenvalue) {
+    factor_flops();
+    factor_->factorise(system_, -eigenvalue, false,
+                       [&](double share) { return tell("verify", share), true; });
+    return factor_->negative_pivots() - rigid_modes_;
+}
+
 /// By Sylvester's law of inertia K - sigma M has as many negative pivots as there are eigenvalues
 /// below sigma. What is missing is looked for away from all that is known.
 /// @return true if something was missing.
@@ -166,10 +173,7 @@ bool ModalProblem::verify(EigenPairs& pairs, unsigned seed, LanczosOptions lancz
     if (!(pairs.beyond > last * (1 + 1e-9)))
         return false; // the limit on the number cuts between equal pairs
     const double sigma = 0.5 * (last + pairs.beyond);
-    factor_->factorise(system_, -sigma, false, [&](double share) {
-        return tell("verify", share, static_cast<std::size_t>(pairs.value.size())), true;
-    });
-    if (factor_->negative_pivots() <= rigid_.cols() + pairs.value.size())
+    if (modes_below(sigma) <= pairs.value.size())
         return false;
     RowMatrix known(system_.size(), rigid_.cols() + pairs.vector.cols());
     known << rigid_, pairs.vector;

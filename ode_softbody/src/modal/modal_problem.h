@@ -23,6 +23,10 @@ public:
     /// are taken out and added to rigid_modes().
     EigenPairs solve();
 
+    /// Elastic modes below an eigenvalue by Sylvester's law of inertia: a factorisation of which
+    /// nothing is kept. The rigid_modes() are not among them.
+    Eigen::Index modes_below(double eigenvalue);
+
     /// Rayleigh quotients, mass normalisation, sign; shapes on the mesh's own nodes.
     ModalModel model(const EigenPairs& pairs) const;
 

@@ -40,10 +40,8 @@ RowMatrix free_rigid_motions(const BlockSystem& system, const std::vector<char>&
 
     std::vector<Eigen::Matrix<double, 6, 6>> support(centre.size(),
                                                      Eigen::Matrix<double, 6, 6>::Zero());
-    Eigen::Index rows = 0;
     for (std::size_t i = 0; i < part.size(); ++i) {
         const std::size_t p = part_of(i);
-        rows += held[i] == 7 ? 0 : 3;
         const Motion m = motion_at(system.position[i] - centre[p], size[p]);
         for (int axis = 0; axis < 3; ++axis)
             if (held[i] & (1 << axis))
@@ -60,32 +58,32 @@ RowMatrix free_rigid_motions(const BlockSystem& system, const std::vector<char>&
         columns += n;
     }
 
-    RowMatrix motions = RowMatrix::Zero(rows, columns);
-    Eigen::Index row = 0;
+    // On all nodes; clamped ones rest.
+    RowMatrix motions = RowMatrix::Zero(system.size(), columns);
     std::vector<Eigen::Index> first_column(kept.size(), 0);
     for (std::size_t p = 1; p < kept.size(); ++p)
         first_column[p] = first_column[p - 1] + kept[p - 1].cols();
     for (std::size_t i = 0; i < part.size(); ++i) {
-        if (held[i] == 7)
-            continue;
         const std::size_t p = part_of(i);
-        motions.block(row, first_column[p], 3, kept[p].cols()) =
-            motion_at(system.position[i] - centre[p], size[p]) * kept[p];
-        row += 3;
+        if (held[i] != 7)
+            motions.block(3 * static_cast<Eigen::Index>(i), first_column[p], 3, kept[p].cols()) =
+                motion_at(system.position[i] - centre[p], size[p]) * kept[p];
     }
-    if (columns == 0)
-        return motions;
-    std::vector<char> keep(held.size());
-    for (std::size_t i = 0; i < held.size(); ++i)
-        keep[i] = held[i] != 7;
-    const BlockSystem reduced = restrict_to(system, keep);
     RowMatrix image;
-    for (int pass = 0; pass < 2; ++pass) { // the second removes what rounding left of the first
-        multiply_mass(reduced, motions, image);
+    for (int pass = 0; columns > 0 && pass < 2; ++pass) { // the second removes what rounding left
+        multiply_mass(system, motions, image);
         const Eigen::MatrixXd gram = motions.transpose() * image;
         const Eigen::LLT<Eigen::MatrixXd> root(gram);
         root.matrixU().solveInPlace<Eigen::OnTheRight>(motions);
     }
+    Eigen::Index rows = 0;
+    for (std::size_t i = 0; i < part.size(); ++i)
+        if (held[i] != 7) {
+            motions.middleRows(rows, 3) =
+                motions.middleRows(3 * static_cast<Eigen::Index>(i), 3).eval();
+            rows += 3;
+        }
+    motions.conservativeResize(rows, Eigen::NoChange);
     return motions;
 }
 

@@ -37,8 +37,8 @@ struct ModalOptions {
 /// With an estimate, the same mesh is solved one order higher too. The change d of a partial
 /// [cents], plus the spread of neighbours that its shape mixes, tells its error: order 3 gives
 /// f3 - 1.4 (f3 - f4) with the band 0.45 d; orders 1 and 2 give their own f with the band 2 d.
-/// Where the cubic order is too large to factorise, it is refined from and judged by the quadratic
-/// one: f3 - 0.1 (f2 - f3), band (f2 - f3) / 2, generous. Curves rebuilt from facets add 0.3 of
+/// Where the quartic order is too large, the quadratic one judges the cubic: f3 - 0.1 (f2 - f3),
+/// band (f2 - f3) / 2, generous. Curves rebuilt from facets add 0.3 of
 /// what straight facets would change. tests/physics/modal/band_test.cpp holds the figures. The band
 /// holds the error of discretisation only: not of the material's constants, nor of a mesh that
 /// isn't the object, nor of a clamp that catches both ends of an edge which it should not (give a

@@ -41,52 +41,60 @@ Transfer::Transfer(const DofMap& coarse, const std::vector<char>& coarse_held, c
     }
 }
 
-void Transfer::up(const RowMatrix& coarse, RowMatrix& fine) const {
+template <typename Matrix>
+void Transfer::up(const Matrix& coarse, Matrix& fine) const {
     fine.setZero(3 * static_cast<Index>(start_.size() - 1), coarse.cols());
     for (std::size_t i = 0; i + 1 < start_.size(); ++i)
         for (int t = start_[i]; t < start_[i + 1]; ++t) {
             const auto& [node, weight] = term_[static_cast<std::size_t>(t)];
             fine.middleRows(3 * static_cast<Index>(i), 3) +=
-                weight * coarse.middleRows(3 * node, 3);
+                static_cast<typename Matrix::Scalar>(weight) * coarse.middleRows(3 * node, 3);
         }
 }
 
-void Transfer::down(const RowMatrix& fine, RowMatrix& coarse) const {
+template <typename Matrix>
+void Transfer::down(const Matrix& fine, Matrix& coarse) const {
     coarse.setZero(3 * coarse_nodes_, fine.cols());
     for (std::size_t i = 0; i + 1 < start_.size(); ++i)
         for (int t = start_[i]; t < start_[i + 1]; ++t) {
             const auto& [node, weight] = term_[static_cast<std::size_t>(t)];
-            coarse.middleRows(3 * node, 3) +=
-                weight * fine.middleRows(3 * static_cast<Index>(i), 3);
+            coarse.middleRows(3 * node, 3) += static_cast<typename Matrix::Scalar>(weight) *
+                                              fine.middleRows(3 * static_cast<Index>(i), 3);
         }
 }
 
-TwoLevel::TwoLevel(const BlockSystem& fine, const BlockFactor& coarse, const Transfer& transfer)
-    : fine_(fine), coarse_(coarse), transfer_(transfer) {
+template void Transfer::up(const RowMatrix&, RowMatrix&) const;
+template void Transfer::up(const RowMatrixF&, RowMatrixF&) const;
+template void Transfer::down(const RowMatrix&, RowMatrix&) const;
+template void Transfer::down(const RowMatrixF&, RowMatrixF&) const;
+
+TwoLevel::TwoLevel(const BlockSystem& fine, const Transfer& transfer, CoarseInverse coarse)
+    : fine_(fine), transfer_(transfer), coarse_(std::move(coarse)), single_(fine) {
     inverse_block_.resize(fine.node_count());
     for (std::size_t i = 0; i < fine.node_count(); ++i)
         for (int p = fine.start[i]; p < fine.start[i + 1]; ++p)
             if (fine.column[static_cast<std::size_t>(p)] == static_cast<int>(i))
                 inverse_block_[i] = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(
                                         &fine.stiffness[9 * static_cast<std::size_t>(p)])
-                                        .inverse();
+                                        .inverse()
+                                        .cast<float>();
     // Power iteration: fifteen steps on one vector come within a few per cent from below.
-    RowMatrix x(fine.size(), 1), y, z;
+    RowMatrixF x(fine.size(), 1), y, z;
     for (Index i = 0; i < x.rows(); ++i)
-        x(i, 0) = std::sin(1.0 + 12.9898 * static_cast<double>(i));
+        x(i, 0) = static_cast<float>(std::sin(1.0 + 12.9898 * static_cast<double>(i)));
     for (int k = 0; k < 15; ++k) {
         x /= x.norm();
-        multiply_stiffness(fine, x, y);
+        single_.multiply(x, y);
         scale(y, z);
-        high_ = 1.1 * z.norm();
+        high_ = 1.1 * static_cast<double>(z.norm());
         x = z;
     }
 }
 
-void TwoLevel::scale(const RowMatrix& r, RowMatrix& z) const {
+void TwoLevel::scale(const RowMatrixF& r, RowMatrixF& z) const {
     z.resize(r.rows(), r.cols());
     for (std::size_t i = 0; i < inverse_block_.size(); ++i) {
-        const Mat3& b = inverse_block_[i];
+        const Eigen::Matrix3f& b = inverse_block_[i];
         const Index row = 3 * static_cast<Index>(i);
         for (Index k = 0; k < 3; ++k)
             z.row(row + k) =
@@ -94,61 +102,65 @@ void TwoLevel::scale(const RowMatrix& r, RowMatrix& z) const {
     }
 }
 
-void TwoLevel::smooth(const RowMatrix& r, RowMatrix& z) const {
+void TwoLevel::smooth(const RowMatrixF& r, RowMatrixF& z) const {
     const double theta = 0.5 * (1 + kLowShare) * high_, delta = 0.5 * (1 - kLowShare) * high_;
     scale(r, step_);
-    step_ /= theta;
+    step_ /= static_cast<float>(theta);
     z = step_;
     double rho = delta / theta;
     for (int k = 1; k < kDegree; ++k) {
-        multiply_stiffness(fine_, z, residual_);
+        single_.multiply(z, residual_);
         residual_ = r - residual_;
         scale(residual_, scaled_);
         const double next = 1 / (2 * theta / delta - rho);
-        step_ = next * rho * step_ + 2 * next / delta * scaled_;
+        step_ =
+            static_cast<float>(next * rho) * step_ + static_cast<float>(2 * next / delta) * scaled_;
         z += step_;
         rho = next;
     }
 }
 
-void TwoLevel::precondition(const RowMatrix& r, RowMatrix& z) const {
+void TwoLevel::cycle(const RowMatrixF& r, RowMatrixF& z) const {
     smooth(r, z);
-    RowMatrix rest;
-    multiply_stiffness(fine_, z, rest);
-    rest = r - rest;
-    transfer_.down(rest, low_);
-    coarse_.solve(low_);
+    single_.multiply(z, rest_);
+    rest_ = r - rest_;
+    transfer_.down(rest_, low_);
+    coarse_(low_);
     transfer_.up(low_, correction_);
     z += correction_;
-    multiply_stiffness(fine_, z, rest);
-    rest = r - rest;
-    smooth(rest, correction_);
+    single_.multiply(z, rest_);
+    rest_ = r - rest_;
+    smooth(rest_, correction_);
     z += correction_;
 }
 
 int TwoLevel::solve(RowMatrix& r, RowMatrix& w, double share, int max_steps) const {
+    const auto apply = [&] {
+        right_ = r.cast<float>();
+        cycle(right_, cycled_single_);
+        cycled_ = cycled_single_.cast<double>();
+    };
     w.setZero(r.rows(), r.cols());
-    RowMatrix z, p, q;
-    precondition(r, z);
-    p = z;
-    RowVectorXd rz = r.cwiseProduct(z).colwise().sum();
+    apply();
+    direction_ = cycled_;
+    RowVectorXd rz = r.cwiseProduct(cycled_).colwise().sum();
     RowVectorXd total = RowVectorXd::Zero(r.cols());
     for (int step = 1;; ++step) {
-        multiply_stiffness(fine_, p, q);
-        const RowVectorXd curvature = p.cwiseProduct(q).colwise().sum();
+        multiply_stiffness(fine_, direction_, image_);
+        const RowVectorXd curvature = direction_.cwiseProduct(image_).colwise().sum();
         // A column without residual stays: 0/0 becomes 0.
         const RowVectorXd alpha =
             (curvature.array() > 0).select(rz.array() / curvature.array(), 0.0).matrix();
-        w.array() += p.array().rowwise() * alpha.array();
-        r.array() -= q.array().rowwise() * alpha.array();
+        w.array() += direction_.array().rowwise() * alpha.array();
         const RowVectorXd gain = alpha.cwiseProduct(rz);
         total += gain;
         if (step == max_steps || (gain.array() <= share * total.array()).all())
             return step;
-        precondition(r, z);
-        const RowVectorXd next = r.cwiseProduct(z).colwise().sum();
+        r.array() -= image_.array().rowwise() * alpha.array();
+        apply();
+        const RowVectorXd next = r.cwiseProduct(cycled_).colwise().sum();
         const RowVectorXd beta = (rz.array() > 0).select(next.array() / rz.array(), 0.0).matrix();
-        p = (z.array() + p.array().rowwise() * beta.array()).matrix();
+        direction_ = (cycled_.array() + direction_.array().rowwise() * beta.array()).matrix();
         rz = next;
     }
 }

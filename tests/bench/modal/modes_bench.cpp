@@ -61,6 +61,22 @@ void BM_Block(benchmark::State& state) {
 }
 BENCHMARK(BM_Block)->Iterations(1)->Unit(benchmark::kSecond);
 
+/// Twenty modes of a plate of some 100 000 quadratic nodes. @param arg 0: order, 1: with the band
+void BM_LargePlate(benchmark::State& state) {
+    ModalOptions options;
+    options.order = static_cast<int>(state.range(0));
+    options.estimate = state.range(1) != 0;
+    options.max_modes = 20;
+    options.max_frequency = 1e6;
+    solve(state, make_box({0.6, 0.6, 0.03}, 60, 60, 3), options, false);
+}
+BENCHMARK(BM_LargePlate)
+    ->ArgNames({"order", "band"})
+    ->Args({2, 0})
+    ->Args({3, 1})
+    ->Iterations(1)
+    ->Unit(benchmark::kSecond);
+
 } // namespace
 
 BENCHMARK_MAIN();

@@ -1,6 +1,4 @@
-#include "modal/cubic.h"
-
-#include "modal/two_level.h"
+#include "modal/refine.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -30,22 +28,22 @@ struct Gram {
 
 } // namespace
 
-Refined refine(const ModalProblem& coarse, const EigenPairs& pairs, const ModalProblem& fine,
-               double share, const std::function<void(double)>& progress) {
+Refined refine(const EigenPairs& pairs, const Transfer& transfer, const ModalProblem& fine,
+               const TwoLevel& inverse, Effort effort,
+               const std::function<void(double)>& progress) {
     const BlockSystem& system = fine.system();
     const Index m = pairs.value.size();
     Refined out;
     if (m == 0)
         return out;
-    const Transfer transfer(coarse.map(), coarse.held(), fine.map(), fine.held());
-    const TwoLevel inverse(system, coarse.factor(), transfer);
     const RowMatrix& rigid = fine.rigid_motions();
     Gram stiffness(m), mass(m);
     out.correction.resize(system.size(), m);
     RowMatrix x, kx, mx, low, w;
     for (Index first = 0; first < m; first += kBatch) {
         const Index width = std::min(kBatch, m - first);
-        transfer.up(pairs.vector.middleCols(first, width), x);
+        low = pairs.vector.middleCols(first, width);
+        transfer.up(low, x);
         multiply_stiffness(system, x, kx);
         multiply_mass(system, x, mx);
         transfer.down(kx, low);
@@ -56,7 +54,7 @@ Refined refine(const ModalProblem& coarse, const EigenPairs& pairs, const ModalP
         const Eigen::RowVectorXd quotient =
             x.cwiseProduct(kx).colwise().sum().cwiseQuotient(x.cwiseProduct(mx).colwise().sum());
         RowMatrix r = mx.array().rowwise() * quotient.array() - kx.array();
-        out.steps = std::max(out.steps, inverse.solve(r, w, share, 8));
+        out.steps = std::max(out.steps, inverse.solve(r, w, effort.share, effort.steps));
         if (rigid.cols() > 0) {
             multiply_mass(system, w, mx);
             w.noalias() -= rigid * (rigid.transpose() * mx).eval();

@@ -1,4 +1,4 @@
-#include "modal/cubic.h"
+#include "modal/refine.h"
 
 #include "mesh/generate.h"
 
@@ -25,7 +25,13 @@ TEST(Refine, CapturesTheCubicSolutionWithoutItsFactor) {
         ModalProblem coarse(mesh, std::span(&solid, 1), low),
             fine(mesh, std::span(&solid, 1), high);
         const EigenPairs pairs = coarse.solve();
-        const Refined refined = refine(coarse, pairs, fine);
+        const Transfer up(coarse.map(), coarse.held(), fine.map(), fine.held());
+        const TwoLevel inverse(fine.system(), up, [&](RowMatrixF& x) {
+            RowMatrix wide = x.cast<double>();
+            coarse.factor().solve(wide);
+            x = wide.cast<float>();
+        });
+        const Refined refined = refine(pairs, up, fine, inverse, {.share = 0.03, .steps = 8});
         const EigenPairs exact = fine.solve();
         ASSERT_GT(exact.value.size(), 8);
         ASSERT_GT(refined.value.size(), exact.value.size());
