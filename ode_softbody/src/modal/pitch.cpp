@@ -1,5 +1,6 @@
 #include "modal/pitch.h"
 
+#include "base/error.h"
 #include "modal/band.h"
 #include "modal/refine.h"
 
@@ -17,9 +18,9 @@ using Eigen::VectorXd;
 constexpr double kDirectJudge = 5e9;
 /// Up to here (two seconds) the modes of the cubic order are counted.
 constexpr double kCountFlops = 20e9;
-/// Pairs of nodes that an element of the quartic order brings, and bytes that each costs in double
-/// and single precision.
-constexpr double kQuarticPairs = 900, kPairBytes = 120;
+/// Pairs of nodes that an element of the cubic and the quartic order brings, at most (counted over
+/// blocks and plates), and bytes that each costs in double and single precision.
+constexpr double kCubicPairs = 250, kQuarticPairs = 900, kPairBytes = 120;
 /// Above, the cubic order is judged by the quadratic one: no matrix but the cubic one is needed.
 constexpr double kQuarticMemory = 1.5 * 0x1p30;
 /// An answer, and what only judges one.
@@ -176,17 +177,34 @@ OrderPair judged_by_quartic(const ModalProblem& problem, const TwoLevel& cubic,
     return pair;
 }
 
+/// @throws InputError where matrix, factor and vectors of a refinement would not fit.
+void check_memory(ModalProblem& coarse, const ModalOptions& options) {
+    coarse.factor_flops();
+    const double elements = static_cast<double>(coarse.mesh().element_count());
+    // Some 5.5 new nodes an element, each with three numbers of two vectors a mode.
+    const double vectors = 5.5 * 3 * 2 * 8 * 2 * static_cast<double>(options.max_modes);
+    const double bytes = elements * (kCubicPairs * kPairBytes + vectors) +
+                         1.3 * 8 * coarse.factor().factor_entries();
+    if (bytes > static_cast<double>(options.memory))
+        throw InputError(format("modes of this mesh at order 3 need about %.1f GiB, above the "
+                                "limit of %.1f GiB: take a coarser mesh, order 2 without a band "
+                                "or raise the limit",
+                                bytes / 0x1p30, static_cast<double>(options.memory) / 0x1p30));
+}
+
 /// The cubic answer refined from quadratic vectors, and judged by the quartic order, or by the
 /// quadratic one where that is too large. Only the quadratic order is factorised.
-ModalModel cubic_from_quadratic(ModalProblem& problem, const ModalOptions& options) {
+ModalModel cubic_from_quadratic(const TetMesh& mesh, std::span<const Solid> solids,
+                                const ModalOptions& options) {
     ModalOptions low = options;
     low.order = 2;
-    ModalProblem coarse(problem.mesh(), problem.solids(), low);
+    ModalProblem coarse(mesh, solids, low);
+    check_memory(coarse, options);
+    ModalProblem problem(mesh, solids, options);
     const Transfer up(coarse.map(), coarse.held(), problem.map(), problem.held());
     const TwoLevel inverse(problem.system(), up, by_factor(coarse));
     const bool quartic =
-        kQuarticPairs * kPairBytes * static_cast<double>(problem.mesh().element_count()) <=
-        kQuarticMemory;
+        kQuarticPairs * kPairBytes * static_cast<double>(mesh.element_count()) <= kQuarticMemory;
     for (double reach = kFirstCubicReach;; reach *= kReachStep) {
         const bool last = reach >= kLastReach;
         widen(low, options, reach);
@@ -222,10 +240,10 @@ ModalModel cubic_from_quadratic(ModalProblem& problem, const ModalOptions& optio
 
 ModalModel solve_with_band(const TetMesh& mesh, std::span<const Solid> solids,
                            const ModalOptions& options) {
+    if (options.order == 3)
+        return cubic_from_quadratic(mesh, solids, options);
     ModalOptions own = options;
     ModalProblem problem(mesh, solids, own);
-    if (options.order == 3)
-        return cubic_from_quadratic(problem, options);
     return judged_above(problem, own, options);
 }
 

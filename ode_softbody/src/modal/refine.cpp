@@ -11,8 +11,12 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Columns worked on at once: the vectors of a batch, and not of all modes, are held several times.
-constexpr Index kBatch = 32;
+/// Columns worked on at once: the vectors of a batch, and not of all modes, are held some twelve
+/// times. Fewer of long ones, for half a GiB.
+Index batch_of(Index length) {
+    const auto affordable = static_cast<Index>(0x1p29 / (12.0 * 8 * static_cast<double>(length)));
+    return std::clamp<Index>(8 * (affordable / 8), 8, 32);
+}
 
 /// Gram matrices of [P X, W]: kept as blocks because P X is never stored as a whole.
 struct Gram {
@@ -36,12 +40,13 @@ Refined refine(const EigenPairs& pairs, const Transfer& transfer, const ModalPro
     Refined out;
     if (m == 0)
         return out;
+    const Index batch = batch_of(system.size());
     const RowMatrix& rigid = fine.rigid_motions();
     Gram stiffness(m), mass(m);
     out.correction.resize(system.size(), m);
     RowMatrix x, kx, mx, low, w;
-    for (Index first = 0; first < m; first += kBatch) {
-        const Index width = std::min(kBatch, m - first);
+    for (Index first = 0; first < m; first += batch) {
+        const Index width = std::min(batch, m - first);
         low = pairs.vector.middleCols(first, width);
         transfer.up(low, x);
         multiply_stiffness(system, x, kx);
@@ -67,8 +72,8 @@ Refined refine(const EigenPairs& pairs, const Transfer& transfer, const ModalPro
         if (progress)
             progress(static_cast<double>(first + width) / static_cast<double>(m));
     }
-    for (Index first = 0; first < m; first += kBatch) {
-        const Index width = std::min(kBatch, m - first);
+    for (Index first = 0; first < m; first += batch) {
+        const Index width = std::min(batch, m - first);
         w = out.correction.middleCols(first, width);
         multiply_stiffness(system, w, kx);
         multiply_mass(system, w, mx);

@@ -28,7 +28,7 @@ struct ModalOptions {
     /// halfway.
     std::vector<Vec3> facets;
     bool verify = true;                        ///< count the modes by Sylvester's law of inertia
-    std::size_t memory = std::size_t{4} << 30; ///< refuse what would need more [bytes]
+    std::size_t memory = std::size_t{6} << 30; ///< refuse what would need more [bytes]
     std::function<bool(const ModalProgress&)> progress; ///< false cancels
 };
 
