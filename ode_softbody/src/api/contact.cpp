@@ -1,8 +1,10 @@
 #include "api/boundary.h"
+#include "api/editing.h"
 #include "api/handles.h"
 #include "api/versioned.h"
 
 #include <cmath>
+#include <string_view>
 
 using namespace ode::soft;
 
@@ -56,7 +58,37 @@ private:
     bool complained_ = false;
 };
 
+constexpr struct {
+    const char* name;
+    SoftContactMethod method;
+} kMethods[] = {{"closest-point", SoftContactMethod::closest_point},
+                {"volume", SoftContactMethod::volume}};
+
 } // namespace
+
+int dSoftWorldSetSoftContactMethod(dSoftWorldID id, const char* name) {
+    require_id(name, __func__);
+    SoftWorld* world = live(id, __func__);
+    if (!world || !may_edit(*world, __func__))
+        return 0;
+    for (const auto& known : kMethods)
+        if (std::string_view(name) == known.name) {
+            world->set_soft_contact_method(known.method);
+            return 1;
+        }
+    report(format("%s: there is no method '%s'; give 'closest-point' or 'volume'", __func__, name));
+    return 0;
+}
+
+const char* dSoftWorldGetSoftContactMethod(dSoftWorldID id) {
+    const SoftWorld* world = live(id, __func__);
+    if (!world)
+        return nullptr;
+    for (const auto& known : kMethods)
+        if (world->soft_contact_method() == known.method)
+            return known.name;
+    return nullptr;
+}
 
 dSoftContact dSoftContactDefault(void) { return to_c(ContactLaw{}); }
 

@@ -9,42 +9,12 @@
 namespace ode::soft {
 namespace {
 
-// A node is pressed by its own point and by those of the other surface on its triangles, whose
-// areas add up to about its own; and each spring has two ends. By Gershgorin's rows a node of mass
-// m then adds 4 k dt^2 / m at most to dt^2 lambda. The normal spring is stable at any stiffness:
-// friction, 0.7 of it, has to stay within kStiffnessShare: 4 * 0.7 / 3 < 1. A normal spring no
-// stiffer than that would be softer than a body of few elements.
-constexpr double kShare = 1.0 / 3;
-constexpr double kHardness = 7; // 3 loses more energy, 10 gains some at 0.1 of the wave speed
-constexpr int kSweeps = 2;      // sixteen keep energy no better
+constexpr int kSweeps = 2; // sixteen keep energy no better
 // As far as points may move on the faces before the next look, in mean edges.
 constexpr double kSlack = 0.2;
 // Speeds may grow till the next look as in NodeContact.
 constexpr double kHaste = 4;
 constexpr double kAcceleration = 1000; ///< [m/s^2]
-
-double bearable(const SoftPartner& body) noexcept {
-    return kShare * kStiffnessShare / (body.substep * body.substep);
-}
-
-PairLaw make_law(const SoftPartner& points, const SoftPartner& faces) noexcept {
-    PairLaw law;
-    law.friction = std::sqrt(points.law.friction * faces.law.friction);
-    if (std::isnan(law.friction)) // 0 * infinity
-        law.friction = 0;
-    law.hardness = kHardness;
-    law.stiffness = kHardness * std::fmin(bearable(points) * points.surface.nodes().mass_per_area,
-                                          bearable(faces) * faces.surface.nodes().mass_per_area);
-    for (const SoftPartner* side : {&points, &faces})
-        if (side->law.stiffness > 0)
-            law.stiffness = std::fmin(law.stiffness, side->law.stiffness);
-    law.damping = (points.law.damping + faces.law.damping) / 2;
-    law.bearable_point = bearable(points);
-    law.bearable_face = bearable(faces);
-    law.bearable_point_damping = kShare * kDampingShare / points.substep;
-    law.bearable_face_damping = kShare * kDampingShare / faces.substep;
-    return law;
-}
 
 } // namespace
 
@@ -55,9 +25,9 @@ SoftContact::SoftContact(SoftSurface& a, SoftSurface& b)
 }
 
 void SoftContact::begin_step(const SoftPartner& a, const SoftPartner& b) noexcept {
-    points_of_a_.begin_step(make_law(a, b));
+    points_of_a_.begin_step(make_pair_law(a, b));
     if (points_of_b_)
-        points_of_b_->begin_step(make_law(b, a));
+        points_of_b_->begin_step(make_pair_law(b, a));
     look_again_in_ = 0;
 }
 

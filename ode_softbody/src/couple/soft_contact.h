@@ -1,49 +1,28 @@
 #pragma once
 
+#include "couple/pair_contact.h"
 #include "couple/surface_contact.h"
 
-#include <cstddef>
 #include <optional>
 
 namespace ode::soft {
 
-/// Work done in one call.
-struct SoftContactTally {
-    unsigned long looks = 0;   ///< searches through the trees
-    unsigned long tests = 0;   ///< point against triangle
-    unsigned long bearing = 0; ///< points that bore force
-};
-
-/// A body's part in a pair, settled at the start of a step.
-struct SoftPartner {
-    SoftSurface& surface;
-    const ContactLaw& law;
-    double substep; ///< the body's own, nominal [s]
-};
-
 /// Contact of two soft bodies, of each one's points with the other's triangles, or of one body with
 /// itself. Kept from step to step as long as the pair stays near, because friction has a memory.
 ///
-/// Law of the pair. Friction: geometric mean of both coefficients, so that a body without friction
-/// has none with anybody. Penalty: the softer one asked for, at most what both sides' nodes bear:
-/// friction's share is a third of kStiffnessShare / substep^2 * mass per area of the lighter side,
-/// the normal spring, stable at any stiffness, seven times that. It hangs on nominal substeps
-/// alone, so that the springs' potential is the same throughout. Dashpots: mean time constant.
-///
 /// Between looks through the trees nothing is sought: a look lasts until the surfaces, at kHaste
 /// times today's speed, may have come within reach.
-class SoftContact {
+class SoftContact final : public PairContact {
 public:
     /// Surfaces are borrowed for the contact's life. One surface twice: self contact.
     SoftContact(SoftSurface& a, SoftSurface& b);
 
     bool is_self() const noexcept { return &a_ == &b_; }
 
-    void begin_step(const SoftPartner& a, const SoftPartner& b) noexcept;
+    void begin_step(const SoftPartner& a, const SoftPartner& b) noexcept override;
 
-    /// Adds forces to both sides.
-    /// @param when  names the state of motion, for the trees.
-    SoftContactTally add_force(const SoftSide& a, const SoftSide& b, double dt, unsigned long when);
+    SoftContactTally add_force(const SoftSide& a, const SoftSide& b, double dt,
+                               unsigned long when) override;
 
 private:
     void look(const SoftSide& a, const SoftSide& b, double dt, unsigned long when,

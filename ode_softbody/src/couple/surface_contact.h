@@ -1,7 +1,7 @@
 #pragma once
 
 #include "collide/closest_point.h"
-#include "couple/contact_law.h"
+#include "couple/pair_law.h"
 #include "couple/soft_surface.h"
 
 #include <limits>
@@ -9,27 +9,6 @@
 #include <vector>
 
 namespace ode::soft {
-
-/// What a contact sees of a soft body in a substep. All borrowed.
-struct SoftSide {
-    const NodeArray& position;
-    const NodeArray& velocity;            ///< half a substep back
-    std::span<const double> inverse_mass; ///< of every mesh node [1/kg]; 0: held
-    NodeArray& force;                     ///< all that acts, contact last [N]
-};
-
-/// How two soft surfaces meet: ContactLaw of both, made one.
-struct PairLaw {
-    double friction = 0;
-    double stiffness = 0; ///< [Pa/m]
-    double damping = 0;   ///< [s]
-    // What a node bears beside the material, in each body's own nominal substep:
-    double bearable_point = 0; ///< spring, of the body with the points [1/s^2]
-    double bearable_face = 0;
-    double hardness = 1;               ///< normal to bearable stiffness
-    double bearable_point_damping = 0; ///< dashpot [1/s]
-    double bearable_face_damping = 0;
-};
 
 /// Contact of one soft surface's points with another's triangles, or with the rest of its own.
 ///

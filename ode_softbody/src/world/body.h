@@ -4,6 +4,7 @@
 #include "collide/soft_geom.h"
 #include "couple/node_contact.h"
 #include "couple/soft_surface.h"
+#include "couple/soft_volume.h"
 #include "integrate/integrator.h"
 #include "mesh/curve.h"
 #include "mesh/surface.h"
@@ -243,6 +244,7 @@ private:
     std::size_t place_ = 0;                     ///< among the world's bodies; Slumber's
     double quiet_ = 0;                          ///< within rest_limits_ for so long [s]
     std::unique_ptr<SoftSurface> soft_surface_; ///< made when it first meets a soft body
+    std::unique_ptr<SoftVolume> soft_volume_;   ///< the same, under the volume penalty
     std::vector<dGeomID> pair_;                 ///< geoms near in this step
     std::vector<RigidPair> rigid_pair_;         ///< those of them that bear contact in this step
     dGeomID geom_ = nullptr;

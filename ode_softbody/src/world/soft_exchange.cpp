@@ -1,5 +1,7 @@
 #include "world/soft_exchange.h"
 
+#include "couple/soft_contact.h"
+#include "couple/volume_contact.h"
 #include "world/body.h"
 
 #include <algorithm>
@@ -62,8 +64,7 @@ void SoftExchange::merge_pairs() {
         if (known != contact_.end() && !before(pair, known->pair))
             merged_.push_back(std::move(*known++));
         else
-            merged_.push_back(
-                {pair, std::make_unique<SoftContact>(surface_of(*pair.a), surface_of(*pair.b))});
+            merged_.push_back({pair, make_contact(pair)});
     }
     keep_sleepers(contact_.end());
     std::swap(contact_, merged_);
@@ -106,6 +107,26 @@ SoftSurface& SoftExchange::surface_of(Body& body) {
     if (!body.soft_surface_)
         body.soft_surface_ = std::make_unique<SoftSurface>(body.contact_nodes_, body.mesh().node);
     return *body.soft_surface_;
+}
+
+SoftVolume& SoftExchange::volume_of(Body& body) {
+    if (!body.soft_volume_)
+        body.soft_volume_ = std::make_unique<SoftVolume>(body.mesh(), surface_of(body));
+    return *body.soft_volume_;
+}
+
+std::unique_ptr<PairContact> SoftExchange::make_contact(const Pair& pair) const {
+    if (method_ == SoftContactMethod::volume)
+        return std::make_unique<VolumeContact>(volume_of(*pair.a), volume_of(*pair.b));
+    return std::make_unique<SoftContact>(surface_of(*pair.a), surface_of(*pair.b));
+}
+
+void SoftExchange::set_method(SoftContactMethod method) noexcept {
+    if (method == method_)
+        return;
+    method_ = method;
+    active_.clear();
+    contact_.clear();
 }
 
 } // namespace ode::soft

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "couple/soft_contact.h"
+#include "couple/pair_contact.h"
 
 #include <memory>
 #include <span>
@@ -9,6 +9,7 @@
 namespace ode::soft {
 
 class Body;
+class SoftVolume;
 
 /// Everything between soft bodies during one ODE step. A body that meets no other, and not itself,
 /// has nothing here.
@@ -26,6 +27,10 @@ public:
     /// Adds contact forces to the bodies' forces.
     SoftContactTally add_forces(double dt);
 
+    SoftContactMethod method() const noexcept { return method_; }
+    /// Contacts begin anew where it is another one.
+    void set_method(SoftContactMethod method) noexcept;
+
     std::size_t pairs() const noexcept { return active_.size(); } ///< of the step
 
     void forget(const Body& body) noexcept; ///< a body is going
@@ -37,14 +42,17 @@ private:
     };
     struct Contact {
         Pair pair;
-        std::unique_ptr<SoftContact> law;
+        std::unique_ptr<PairContact> law;
     };
 
     void collect_pairs(std::span<const std::unique_ptr<Body>> bodies);
     void merge_pairs();
     static bool before(const Pair& x, const Pair& y) noexcept;
     static SoftSurface& surface_of(Body& body);
+    static SoftVolume& volume_of(Body& body);
+    std::unique_ptr<PairContact> make_contact(const Pair& pair) const;
 
+    SoftContactMethod method_ = SoftContactMethod::closest_point;
     std::vector<Pair> met_;        ///< in this step, ascending
     std::vector<Contact> contact_; ///< ascending
     std::vector<Contact> merged_;  ///< scratch of merge_pairs()

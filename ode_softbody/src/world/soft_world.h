@@ -90,6 +90,11 @@ public:
     /// Asked for every pair from the next step on; empty: the soft bodies' own laws hold.
     void set_contact_chooser(ContactChooser chooser) { contact_chooser_ = std::move(chooser); }
 
+    SoftContactMethod soft_contact_method() const noexcept { return soft_exchange_.method(); }
+    void set_soft_contact_method(SoftContactMethod method) noexcept {
+        soft_exchange_.set_method(method);
+    }
+
     Attachments& attachments() noexcept { return attachments_; }
 
     double last_step() const noexcept { return last_step_; } ///< [s]; 0 before the first

@@ -12,4 +12,7 @@ void print_island_rows(std::ostream& out);
 /// Rigid bodies at rest on one another on a soft plate: mean load and ripple.
 void print_pile_rows(std::ostream& out);
 
+/// Soft bodies on soft ones by each method: energy, momenta, cost; filters of tetrahedra.
+void print_soft_pair_rows(std::ostream& out, bool brief);
+
 } // namespace ode::soft

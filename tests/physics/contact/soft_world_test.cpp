@@ -37,6 +37,24 @@ TEST(SoftMeetsSoft, MomentumThroughOdesStep) {
     EXPECT_LT((app.angular_momentum() - angular).norm(), 1e-14);
 }
 
+TEST(SoftMeetsSoft, VolumePenaltyThroughOdesStep) {
+    SoftApp app;
+    EXPECT_STREQ(dSoftWorldGetSoftContactMethod(app.soft), "closest-point");
+    EXPECT_EQ(dSoftWorldSetSoftContactMethod(app.soft, "volumes"), 0);
+    ASSERT_EQ(dSoftWorldSetSoftContactMethod(app.soft, "volume"), 1);
+    EXPECT_STREQ(dSoftWorldGetSoftContactMethod(app.soft), "volume");
+    const MeshHandle mesh(dSoftMeshCreateBox(0.1, 0.1, 0.1, 3, 3, 3));
+    app.add(mesh, SoftApp::solid(1e6, 1000), {-0.07, 0.01, 0.02}, {1, 0, 0}, 0.5);
+    const dSoftBodyID b = app.add(mesh, SoftApp::solid(1e6, 300), {0.07, 0, 0}, {-1, 0, 0}, 0.5);
+    const Vec3 linear = app.momentum();
+    const Vec3 angular = app.angular_momentum();
+    for (int i = 0; i < 24; ++i)
+        app.step(kStep);
+    EXPECT_GT(SoftApp::velocity(b).x(), 0);
+    EXPECT_LT((app.momentum() - linear).norm(), 1e-13);
+    EXPECT_LT((app.angular_momentum() - angular).norm(), 1e-14);
+}
+
 // Three blocks of rubber, each dropped on the one below, with the damping of the material alone.
 TEST(SoftMeetsSoft, AStackOfThreeComesToRest) {
     SoftApp app(9.81);
@@ -84,8 +102,9 @@ struct Folded {
     bool stopped;
 };
 
-Folded fold(bool self_contact) {
+Folded fold(bool self_contact, const char* method = "closest-point") {
     SoftApp app;
+    dSoftWorldSetSoftContactMethod(app.soft, method);
     const double length = 0.2;
     const double thick = 0.004;
     const MeshHandle mesh(dSoftMeshCreatePlate(length, 0.04, thick, 20, 4, 1));
@@ -138,6 +157,13 @@ TEST(SelfContact, AFoldedSheetDoesNotPassThroughItself) {
     EXPECT_FALSE(with.stopped);
     // Thickness 4 mm; the end may press in by a part of it.
     EXPECT_GT(with.least, 0.003);
+    EXPECT_GT(with.stats.soft_tests, 0u);
+}
+
+TEST(SelfContact, TheVolumePenaltyKeepsItOutToo) {
+    const Folded with = fold(true, "volume");
+    EXPECT_FALSE(with.stopped);
+    EXPECT_GT(with.least, 0.002); // softer at first: force grows with the square of depth
     EXPECT_GT(with.stats.soft_tests, 0u);
 }
 
