@@ -7,12 +7,14 @@
 #include <cstring>
 #include <filesystem>
 #include <stdexcept>
+#include <string>
 #include <unistd.h>
+#include <vector>
 
 namespace softsound {
 namespace {
 
-int run_program(const std::string& name) {
+int run_program(const std::string& name, std::vector<std::string> options = {}) {
     std::error_code error;
     const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
     std::string program = (self.parent_path() / ("bench_" + name)).string();
@@ -21,8 +23,11 @@ int run_program(const std::string& name) {
                                  " is not there: build it with the tests "
                                  "(cmake --build --preset release --target bench_" +
                                  name + ")");
-    char* const arguments[] = {program.data(), nullptr};
-    execv(program.c_str(), arguments);
+    std::vector<char*> arguments{program.data()};
+    for (std::string& option : options)
+        arguments.push_back(option.data());
+    arguments.push_back(nullptr);
+    execv(program.c_str(), arguments.data());
     throw std::runtime_error(program + ": " + std::strerror(errno));
 }
 
@@ -35,10 +40,24 @@ void add_bench(CLI::App& app, Common& common) {
         .add_subcommand("pitch", "Cents of the first eight partials, by body, element and mesh; "
                                  "a few minutes")
         ->callback([&common] { common.action = [] { return run_program("pitch"); }; });
-    bench
-        .add_subcommand("coupling", "Soft against rigid bodies: impulse, energy, path, load; "
-                                    "a minute")
-        ->callback([&common] { common.action = [] { return run_program("coupling"); }; });
+    static bool brief = false;
+    static std::string json;
+    CLI::App& coupling = *bench.add_subcommand(
+        "coupling", "Soft against rigid and soft bodies: impulse, energy, momenta, load, cost; "
+                    "two minutes. Ends with 1 when a number is beyond its mark");
+    coupling.add_flag("--brief", brief, "One or two of each kind, some seconds");
+    coupling.add_option("--json", json, "Write the tables as data, - for the screen")
+        ->type_name("FILE");
+    coupling.callback([&common] {
+        common.action = [] {
+            std::vector<std::string> options;
+            if (brief)
+                options.emplace_back("--brief");
+            if (!json.empty())
+                options.insert(options.end(), {"--json", json});
+            return run_program("coupling", options);
+        };
+    });
 }
 
 } // namespace softsound

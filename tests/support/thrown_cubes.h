@@ -28,7 +28,7 @@ struct ThrowOutcome {
     double seconds;           ///< CPU of contact alone
 };
 
-struct Throw {
+struct CubeThrow {
     unsigned seed = 0;
     double speed = 1;      ///< [m/s]
     double density = 1000; ///< of the second [kg/m^3]
@@ -40,7 +40,7 @@ struct Throw {
 };
 
 /// Two cubes of 10 cm thrown at each other, turned and spinning at random.
-inline ThrowOutcome throw_cubes(const Throw& t) {
+inline ThrowOutcome throw_cubes(const CubeThrow& t) {
     constexpr double kStep = 4e-3; // of ODE [s]
     std::mt19937 random(t.seed);
     std::uniform_real_distribution<double> u(-1, 1);

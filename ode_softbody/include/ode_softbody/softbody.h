@@ -195,8 +195,8 @@ DSOFT_API int dSoftWorldSetContactCallback(dSoftWorldID world, dSoftContactCallb
 /** How the soft bodies of a world keep each other, and themselves, apart:
  * "closest-point"  surface points against the other's triangles (default): for thin and fast bodies
  * "volume"         the source paper's penalty on the volume that each two tetrahedra have in common
- *                  (P01 3.1), with a potential: loses a tenth of the energy or less, for two to
- *                  four times the time; needs elements no thinner than what moves in a substep.
+ *                  (P01 3.1), with a potential: errs twenty times less in energy, for four to five
+ *                  times the time. What moves farther in an impact than elements are thick passes.
  * May change between steps; friction then forgets. @return 0 for an unknown name, after listing the
  * known ones. */
 DSOFT_API int dSoftWorldSetSoftContactMethod(dSoftWorldID world, const char* name);

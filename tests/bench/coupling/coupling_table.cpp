@@ -1,15 +1,10 @@
 #include "bench/coupling/coupling_table.h"
 
-#include <ostream>
-
 namespace ode::soft {
 
-void print_coupling_table(std::ostream& out) {
-    print_island_rows(out);
-    out << '\n';
-    print_pile_rows(out);
-    out << '\n';
-    print_soft_pair_rows(out, false);
+std::vector<Table> coupling_tables(bool brief) {
+    return {island_table(brief), pile_table(brief), soft_rigid_table(brief), soft_pair_table(brief),
+            filter_table(brief)};
 }
 
 } // namespace ode::soft

@@ -1,18 +1,24 @@
 #pragma once
 
-#include <iosfwd>
+#include "bench/coupling/table.h"
+
+#include <vector>
 
 namespace ode::soft {
 
-/// Prints, as Markdown, every group of rows: what is measured, its error, its mark, and CPU time.
-void print_coupling_table(std::ostream& out);
+/// Every group of rows: what is measured, its error, its mark, and CPU time.
+/// @param brief  one or two of each kind, within seconds, for continuous integration
+std::vector<Table> coupling_tables(bool brief);
 
 /// Jointed bodies against ODE stepped wholly at the substep: impulse, peak force, energy, path.
-void print_island_rows(std::ostream& out);
+Table island_table(bool brief);
 /// Rigid bodies at rest on one another on a soft plate: mean load and ripple.
-void print_pile_rows(std::ostream& out);
-
-/// Soft bodies on soft ones by each method: energy, momenta, cost; filters of tetrahedra.
-void print_soft_pair_rows(std::ostream& out, bool brief);
+Table pile_table(bool brief);
+/// Rigid bodies thrown on a free soft plate, through ODE's steps: energy and momenta.
+Table soft_rigid_table(bool brief);
+/// Soft bodies thrown at each other, by each method: energy, momenta, cost.
+Table soft_pair_table(bool brief);
+/// Filters of pairs of tetrahedra before the volume penalty: cost and what they let pass.
+Table filter_table(bool brief);
 
 } // namespace ode::soft

@@ -1,46 +1,60 @@
-// Soft against soft: what each method keeps and costs, and the filters that could come before it.
-#include "base/error.h"
 #include "bench/coupling/coupling_table.h"
 #include "bench/coupling/tet_filters.h"
 #include "support/thrown_cubes.h"
 
-#include <ostream>
+#include <cmath>
 
 namespace ode::soft {
 
-void print_soft_pair_rows(std::ostream& out, bool brief) {
-    out << "| two cubes thrown at each other | critical step | energy, mean | worst | highest | "
-           "momentum, angular | us/substep while near | tests/substep |\n"
-           "|---|---|---|---|---|---|---|---|\n";
+Table soft_pair_table(bool brief) {
+    constexpr double kMean = 0.5;      // [%]
+    constexpr double kGain = 1;        // [%]
+    constexpr double kMomentum = 1e-6; // relative
+    Table table("soft pairs", {"two soft cubes thrown at each other", "critical step",
+                               "energy, mean %", "worst %", "highest %", "momentum", "angular",
+                               "us/substep while near", "tests/substep"});
     const unsigned throws = brief ? 4 : 12;
     for (const double share : {0.7, 0.45, 0.1})
         for (const bool by_volume : {false, true}) {
             if (brief && share < 0.4)
                 continue;
-            double mean = 0, worst = 0, highest = 0, momentum = 0, angular = 0, seconds = 0;
-            double near = 0, tests = 0;
+            ThrowOutcome all{};
+            double mean = 0;
             for (unsigned seed = 0; seed < throws; ++seed) {
                 const ThrowOutcome o =
                     throw_cubes({.seed = seed, .share = share, .by_volume = by_volume});
                 mean += std::fabs(o.change) / throws;
-                worst = std::fmin(worst, o.change);
-                highest = std::fmax(highest, o.highest);
-                momentum = std::fmax(momentum, o.momentum);
-                angular = std::fmax(angular, o.angular);
-                seconds += o.seconds;
-                near += o.near_substeps;
-                tests += static_cast<double>(o.tally.tests);
+                all.change = std::fmin(all.change, o.change);
+                all.highest = std::fmax(all.highest, o.highest);
+                all.momentum = std::fmax(all.momentum, o.momentum);
+                all.angular = std::fmax(all.angular, o.angular);
+                all.seconds += o.seconds;
+                all.near_substeps += o.near_substeps;
+                all.tally.tests += o.tally.tests;
             }
-            out << format(
-                "| %s | %.2f | %.2f %% | %.2f %% | %+.2f %% | %.0e, %.0e | %.1f | %.0f |\n",
-                by_volume ? "volume" : "closest point", share, 100 * mean, 100 * worst,
-                100 * highest, momentum, angular, 1e6 * seconds / near, tests / near);
+            table.add({by_volume ? "volume" : "closest point",
+                       {"%.2f", share},
+                       {"%.2f", 100 * mean, kMean},
+                       {"%.2f", 100 * all.change},
+                       {"%+.2f", 100 * all.highest, kGain},
+                       {"%.0e", all.momentum, kMomentum},
+                       {"%.0e", all.angular, kMomentum},
+                       {"%.1f", 1e6 * all.seconds / all.near_substeps},
+                       {"%.0f", static_cast<double>(all.tally.tests) / all.near_substeps}});
         }
-    out << "\n| filter of tetrahedra | ns/pair | pairs kept | of these overlap | overlaps missed "
-           "|\n|---|---|---|---|---|\n";
+    return table;
+}
+
+Table filter_table(bool brief) {
+    Table table("filters", {"filter of tetrahedra", "ns/pair", "pairs kept, %",
+                            "of these overlap, %", "overlaps missed"});
     for (const FilterRow& row : compare_filters(brief ? 2000 : 20000))
-        out << format("| %s | %.0f | %.1f %% | %.1f %% | %ld |\n", row.name, row.nanoseconds,
-                      100 * row.kept, 100 * row.right, row.missed);
+        table.add({row.name,
+                   {"%.0f", row.nanoseconds},
+                   {"%.1f", 100 * row.kept},
+                   {"%.1f", 100 * row.right},
+                   {"%.0f", static_cast<double>(row.missed), 0}});
+    return table;
 }
 
 } // namespace ode::soft

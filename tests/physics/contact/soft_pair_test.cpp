@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(Shots, FastPair,
                          testing::Values(Shot{1e6, 9.5, 3}, Shot{1e8, 100, 3}, Shot{1e9, 100, 3}));
 
 TEST(SoftPair, RepeatsItsBits) {
-    const Throw t{.seed = 7, .friction = 0.5, .share = 0.45};
+    const CubeThrow t{.seed = 7, .friction = 0.5, .share = 0.45};
     const ThrowOutcome a = throw_cubes(t);
     const ThrowOutcome b = throw_cubes(t);
     EXPECT_EQ(a.change, b.change);
