@@ -16,7 +16,8 @@ namespace {
 /// The collisions this thread is inside of, innermost first; they live on its stack. A C++
 /// application's callback may throw through ODE.
 class Within;
-thread_local const Within* innermost = nullptr;
+// A call to find it would cost as much as all else here: its place in a thread's memory is fixed.
+[[gnu::tls_model("initial-exec")]] thread_local const Within* innermost = nullptr;
 
 class Within {
 public:

@@ -14,6 +14,7 @@ namespace {
 struct Cursor {
     dSpaceID space = nullptr;
     int in_all = 0; ///< of the space's geoms when the loop began
+    int hidden = 0; ///< soft ones of them: counting costs more than a geom
     int shown = -1; ///< index in the listing without soft geoms
     int real = -1;  ///< and in ODE's
 };
@@ -34,14 +35,15 @@ DSOFT_API int dSpaceGetNumGeoms(dSpaceID space) {
 DSOFT_API dGeomID dSpaceGetGeom(dSpaceID space, int i) {
     static const auto count = next_definition("dSpaceGetNumGeoms", &dSpaceGetNumGeoms);
     static const auto real = next_definition("dSpaceGetGeom", &dSpaceGetGeom);
-    const int hidden = soft_geoms_in(space);
-    if (hidden == 0)
-        return real(space, i);
     const int in_all = count(space);
-    if (i < 0 || i >= in_all - hidden)
-        return real(space, i < 0 ? i : in_all); // refused as ODE refuses
     if (last.space != space || last.in_all != in_all || i != last.shown + 1)
-        last = {space, in_all, -1, -1};
+        last = {space, in_all, soft_geoms_in(space), -1, -1};
+    if (last.hidden == 0) {
+        last.shown = i;
+        return real(space, i);
+    }
+    if (i < 0 || i >= in_all - last.hidden)
+        return real(space, i < 0 ? i : in_all); // refused as ODE refuses
     dGeomID geom = nullptr;
     while (last.shown < i) {
         geom = real(space, ++last.real);

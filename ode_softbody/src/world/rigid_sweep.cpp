@@ -12,7 +12,9 @@
 namespace ode::soft {
 namespace {
 
-double length(const dReal* v) noexcept { return std::hypot(v[0], v[1], v[2]); }
+double length(const dReal* v) noexcept {
+    return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
 
 /// How far a point of the geom may get in h: by its velocity, its spin, and gravity [m].
 double way_of(dGeomID geom, dBodyID body, const dReal* box, double h) noexcept {
