@@ -68,11 +68,12 @@ void Slumber::unite(std::size_t a, std::size_t b) noexcept {
 }
 
 void Slumber::unite_with_rigid(std::size_t group, dBodyID rigid, const RigidExchange& exchange) {
-    if (!moves(rigid))
+    if (!rigid)
         return;
     const std::ptrdiff_t island = exchange.island_of(rigid);
     if (island < 0) { // prescribed, or no contact was wanted
-        restless_[root_of(group)] = true;
+        if (moves(rigid))
+            restless_[root_of(group)] = true;
         return;
     }
     std::ptrdiff_t& owner = owner_[static_cast<std::size_t>(island)];
