@@ -88,6 +88,8 @@ TEST(Pile, SettlesWithoutGainAndFallsAsleep) {
         heap.world.step(kStep);
     const dSoftWorldStats after = heap.stats();
     EXPECT_EQ(after.steps, before.steps + 100);
+    EXPECT_EQ(after.body_substeps, before.body_substeps);
+    EXPECT_EQ(after.rigid_contacts, before.rigid_contacts);
     EXPECT_EQ(after.substeps, before.substeps);
     EXPECT_EQ(after.element_steps, before.element_steps);
     EXPECT_EQ(after.soft_looks, before.soft_looks);
@@ -176,6 +178,24 @@ TEST(Pile, ABlowWakesItsOwnNeighboursOnly) {
     EXPECT_TRUE(enabled(0));
     EXPECT_TRUE(enabled(1)) << "near the first";
     EXPECT_GT(lowest, 0.08) << "it met a soft cube of 10 cm";
+}
+
+// A joint is substepped while its body is near a soft one.
+TEST(Pile, JointedBodiesAreCounted) {
+    Heap heap(short_pile());
+    heap.world.step(kStep);
+    EXPECT_EQ(heap.stats().mirror_steps, 0u);
+    const dReal* x = dBodyGetPosition(heap.bodies.rigid[0]);
+    dVector3 center;
+    dSoftBodyGetCenterOfMass(heap.bodies.soft[0], center);
+    dBodySetPosition(heap.bodies.rigid[0], center[0], center[1], center[2] + 0.12);
+    const dJointID hinge = dJointCreateHinge(heap.world.ode(), nullptr);
+    dJointAttach(hinge, heap.bodies.rigid[0], nullptr);
+    dJointSetHingeAnchor(hinge, x[0], x[1], x[2]);
+    dJointSetHingeAxis(hinge, 1, 0, 0);
+    heap.world.step(kStep);
+    EXPECT_GT(heap.stats().mirror_steps, 0u);
+    EXPECT_GE(heap.stats().body_substeps, 12 * heap.stats().substeps);
 }
 
 TEST(Pile, SleepIsRefusedWhereItCant) {

@@ -74,7 +74,12 @@ int main(int count, char** argument) {
             before = now;
             start = cpu_seconds();
         }
-        std::printf("\nenergy at most %+.2e of the first\n", highest / first - 1);
+        const scenes::PileState last = look_at(bodies, 9.81);
+        std::printf(
+            "\nenergy at most %+.2e of the first; middles at least %.3f m above the floor, at "
+            "most %.3f of %.3f m aside, %.3f m apart; stopped: %s\n",
+            highest / first - 1, last.lowest, last.widest, bodies.half, last.closest,
+            last.any_stopped ? "some" : "none");
     }
     dCloseODE();
 }
