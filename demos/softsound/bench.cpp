@@ -1,5 +1,6 @@
-// softsound bench NAME: runs the benchmark program built beside this one. Benchmarks look inside
-// the library, so they are programs of their own that an installation need not have.
+// softsound bench NAME [OPTIONS]: runs the benchmark program built beside this one, with its own
+// options. Benchmarks look inside the library, so they are programs of their own that an
+// installation need not have.
 
 #include "softsound/command.h"
 
@@ -14,7 +15,7 @@
 namespace softsound {
 namespace {
 
-int run_program(const std::string& name, std::vector<std::string> options = {}) {
+int run_program(const std::string& name, std::vector<std::string> options) {
     std::error_code error;
     const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
     std::string program = (self.parent_path() / ("bench_" + name)).string();
@@ -23,7 +24,7 @@ int run_program(const std::string& name, std::vector<std::string> options = {}) 
                                  " is not there: build it with the tests "
                                  "(cmake --build --preset release --target bench_" +
                                  name + ")");
-    std::vector<char*> arguments{program.data()};
+    std::vector<char*> arguments = {program.data()};
     for (std::string& option : options)
         arguments.push_back(option.data());
     arguments.push_back(nullptr);
@@ -31,33 +32,35 @@ int run_program(const std::string& name, std::vector<std::string> options = {}) 
     throw std::runtime_error(program + ": " + std::strerror(errno));
 }
 
+struct Benchmark {
+    const char* name;    ///< as typed
+    const char* program; ///< after "bench_"
+    const char* what;
+};
+constexpr Benchmark kBenchmarks[] = {
+    {"pitch", "pitch",
+     "Cents of the first eight partials, by body, element and mesh; a few minutes"},
+    {"coupling", "coupling",
+     "Soft against rigid and soft bodies: impulse, energy, momenta, load, cost; two minutes"},
+    {"error-vs-time", "error_vs_time",
+     "Waveform, pitch and decay error against run time, by integrator, element and step; some "
+     "minutes"},
+};
+
 } // namespace
 
 void add_bench(CLI::App& app, Common& common) {
     CLI::App& bench = *app.add_subcommand("bench", "Print a table of error and run time");
     bench.require_subcommand(1);
-    bench
-        .add_subcommand("pitch", "Cents of the first eight partials, by body, element and mesh; "
-                                 "a few minutes")
-        ->callback([&common] { common.action = [] { return run_program("pitch"); }; });
-    static bool brief = false;
-    static std::string json;
-    CLI::App& coupling = *bench.add_subcommand(
-        "coupling", "Soft against rigid and soft bodies: impulse, energy, momenta, load, cost; "
-                    "two minutes. Ends with 1 when a number is beyond its mark");
-    coupling.add_flag("--brief", brief, "One or two of each kind, some seconds");
-    coupling.add_option("--json", json, "Write the tables as data, - for the screen")
-        ->type_name("FILE");
-    coupling.callback([&common] {
-        common.action = [] {
-            std::vector<std::string> options;
-            if (brief)
-                options.emplace_back("--brief");
-            if (!json.empty())
-                options.insert(options.end(), {"--json", json});
-            return run_program("coupling", options);
-        };
-    });
+    for (const Benchmark& b : kBenchmarks) {
+        CLI::App* command = bench.add_subcommand(b.name, b.what)->prefix_command();
+        command->set_help_flag(); // the program's own
+        command->callback([&common, &b, command] {
+            common.action = [&b, options = command->remaining()] {
+                return run_program(b.program, options);
+            };
+        });
+    }
 }
 
 } // namespace softsound

@@ -118,6 +118,27 @@ DSOFT_API int dSoftBodySetCurved(dSoftBodyID body, int curved, int* moved);
 DSOFT_API int dSoftBodySetIntegrator(dSoftBodyID body, const char* name);
 DSOFT_API const char* dSoftBodyGetIntegrator(dSoftBodyID body); /**< borrowed until it is set */
 
+/** How dSoftBodySetTolerance() chose. Start with struct_size = sizeof(dSoftChoice). */
+typedef struct dSoftChoice {
+    unsigned struct_size;
+    int order;
+    const char* material_model; /**< borrowed until it is set */
+    const char* integrator;     /**< borrowed until it is set */
+    dReal substep;              /**< [s] */
+    dReal expected_cents;       /**< error of the worst of the eight lowest partials */
+} dSoftChoice;
+
+/** Chooses order, material model, integrator and substep: the cheapest that keeps the eight lowest
+ * partials of the body, as it is pinned now, within a tolerance. The error of elements and steps is
+ * estimated from the mesh's modes (a second for some 1000 elements; kept in the cache of
+ * dSoftModesCompute), not that of the mesh's own shape or of the material. The model is "stvk", or
+ * "stable-neo-hookean" for what is so soft that a fall strains it by per cents.
+ * @param cents   > 0; 17 is a draft, 3 what a trained ear tells.
+ * @param choice  out, or NULL.
+ * @return 0 after a sentence where no choice is expected to be so right: the body then gets the
+ * truest. Also 0, and nothing changes, where dSoftBodySetOrder() would refuse. */
+DSOFT_API int dSoftBodySetTolerance(dSoftBodyID body, dReal cents, dSoftChoice* choice);
+
 /** Damps the body mode by mode (1) instead of by viscous stress (0, the default). The same decay in
  * the linear range, and each mode to rounding, but the substep needn't shrink for it: for bodies
  * that ring it is the faster way. The modes up to 22 kHz (500 at most) are found at the first step,

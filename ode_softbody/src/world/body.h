@@ -69,6 +69,7 @@ public:
     dGeomID geom() const noexcept { return geom_; } ///< nullptr once the application destroyed it
 
     const BodyForm& form() const noexcept { return form_; }
+    int given_order() const noexcept { return given_order_; } ///< of the mesh it was made of
     /// Solves the body as something else from now on. Its nodes stay where they are, with their
     /// velocities, forces and pins; new ones follow the motion of their element. The substep
     /// becomes the default.

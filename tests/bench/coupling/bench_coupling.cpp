@@ -2,27 +2,21 @@
 // a number is beyond its mark.
 #include "bench/coupling/coupling_table.h"
 
-#include <cstring>
+#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
 
 int main(int count, char** argument) {
+    CLI::App app("Soft against rigid and soft bodies: impulse, energy, momenta, load, cost. Ends "
+                 "with 1 when a number is beyond its mark.");
     bool brief = false;
-    const char* json = nullptr;
-    for (int i = 1; i < count; ++i) {
-        if (std::strcmp(argument[i], "--brief") == 0) {
-            brief = true;
-        } else if (std::strcmp(argument[i], "--json") == 0 && i + 1 < count) {
-            json = argument[++i];
-        } else {
-            std::cerr << "bench_coupling: '" << argument[i]
-                      << "' is not understood; usage: bench_coupling [--brief] [--json FILE|-]\n";
-            return 2;
-        }
-    }
+    std::string json;
+    app.add_flag("--brief", brief, "One or two of each kind, some seconds");
+    app.add_option("--json", json, "Write the tables as data, - for the screen")->type_name("FILE");
+    CLI11_PARSE(app, count, argument);
     const std::vector<ode::soft::Table> tables = ode::soft::coupling_tables(brief);
-    const bool to_screen = json && std::strcmp(json, "-") == 0;
-    if (json) {
+    const bool to_screen = json == "-";
+    if (!json.empty()) {
         std::ofstream file;
         if (!to_screen)
             file.open(json);
