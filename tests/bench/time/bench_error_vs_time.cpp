@@ -30,10 +30,10 @@ const char* outcome(const TimeRow& row) {
 }
 
 void print_table(const std::vector<TimeRow>& rows) {
-    std::printf("| scene | element | integrator | step, us | CPU s/s | waveform error | cents | "
-                "decay error | |\n|---|---|---|---|---|---|---|---|---|\n");
+    std::printf("| scene | element | integrator | step, us | CPU s/s | waveform error | of it by "
+                "steps | cents | decay error | |\n|---|---|---|---|---|---|---|---|---|---|\n");
     for (const TimeRow& row : rows)
-        std::printf("| %s | %s | %s | %.3g | %.3g | %s | %s | %s | %s |\n", row.scene.c_str(),
+        std::printf("| %s | %s | %s | %.3g | %.3g | %s | %s | %s | %s | %s |\n", row.scene.c_str(),
                     row.method.order == 1 ? "linear" : "quadratic", row.method.integrator.c_str(),
                     1e6 * row.run.step, row.run.cpu, shown(100 * row.waveform, "%.3g %%").c_str(),
                     shown(row.cents, "%.2f").c_str(), shown(100 * row.decay, "%.2g %%").c_str(),
@@ -43,13 +43,14 @@ void print_table(const std::vector<TimeRow>& rows) {
 bool write_csv(const std::vector<TimeRow>& rows, const std::string& path) {
     std::ofstream file(path);
     file.precision(9);
-    file << "scene,order,integrator,share_of_critical,step_s,cpu_s_per_s,waveform_error,cents,"
+    file << "scene,order,integrator,share_of_critical,step_s,cpu_s_per_s,waveform_error,step_error,"
+            "cents,"
             "decay_error,within_budget,stable,on_front\n";
     for (const TimeRow& r : rows)
         file << r.scene << ',' << r.method.order << ',' << r.method.integrator << ','
              << r.method.share << ',' << r.run.step << ',' << r.run.cpu << ',' << r.waveform << ','
-             << r.cents << ',' << r.decay << ',' << r.run.within_budget << ',' << r.run.stable
-             << ',' << r.on_front << '\n';
+             << r.steps << ',' << r.cents << ',' << r.decay << ',' << r.run.within_budget << ','
+             << r.run.stable << ',' << r.on_front << '\n';
     return static_cast<bool>(file.flush());
 }
 

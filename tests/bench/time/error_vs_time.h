@@ -16,8 +16,10 @@ struct TimeRow {
     Method method;
     TimedRun run;                                              ///< without its waveform
     double waveform = std::numeric_limits<double>::infinity(); ///< error [-]
-    double cents = std::numeric_limits<double>::quiet_NaN();   ///< NaN: not told by the scene
-    double decay = std::numeric_limits<double>::quiet_NaN();   ///< relative
+    double steps = std::numeric_limits<double>::quiet_NaN(); ///< share of the steps in it: against
+                                                             ///< fine steps, the same elements
+    double cents = std::numeric_limits<double>::quiet_NaN(); ///< NaN: not told by the scene
+    double decay = std::numeric_limits<double>::quiet_NaN(); ///< relative
     bool on_front = false; ///< nothing on the same scene is truer and clearly faster
 
     bool is_default() const {

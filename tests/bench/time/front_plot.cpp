@@ -13,10 +13,12 @@ namespace {
 constexpr const char* kColours[] = {"#d0202e", "#f0a020", "#3a3a98", "#80c060", "#107040",
                                     "#8fb8de", "#b060c0", "#202020", "#a08060", "#20b0b0"};
 
-void say_points(std::ostringstream& say, const std::vector<TimeRow>& rows) {
+using Error = double TimeRow::*;
+
+void say_points(std::ostringstream& say, const std::vector<TimeRow>& rows, Error error) {
     for (const TimeRow& row : rows)
-        if (std::isfinite(row.waveform))
-            say << row.run.cpu << ' ' << row.waveform << "\n";
+        if (std::isfinite(row.*error))
+            say << row.run.cpu << ' ' << row.*error << "\n";
     say << "e\n";
 }
 
@@ -27,7 +29,7 @@ std::vector<TimeRow> chosen(const std::vector<TimeRow>& rows, Chosen is) {
     return out;
 }
 
-void say_panel(std::ostringstream& say, const std::vector<TimeRow>& rows) {
+void say_panel(std::ostringstream& say, const std::vector<TimeRow>& rows, Error error) {
     say << "set title " << plots::quoted(rows[0].scene) << "\nplot '-' using 1:2 with lines lw 1.5 "
         << "lc rgb '#909090' title 'Pareto front'";
     const auto kinds = integrator_kinds();
@@ -41,16 +43,16 @@ void say_panel(std::ostringstream& say, const std::vector<TimeRow>& rows) {
     std::vector<TimeRow> front = chosen(rows, [](const TimeRow& r) { return r.on_front; });
     std::sort(front.begin(), front.end(),
               [](const TimeRow& a, const TimeRow& b) { return a.run.cpu < b.run.cpu; });
-    say_points(say, front);
+    say_points(say, error == &TimeRow::waveform ? front : std::vector<TimeRow>(1), error);
     for (const IntegratorKind& kind : kinds)
         for (const int order : {1, 2}) {
             const auto mine = chosen(rows, [&](const TimeRow& r) {
                 return r.method.integrator == kind.name && r.method.order == order &&
-                       std::isfinite(r.waveform);
+                       std::isfinite(r.*error);
             });
             if (mine.empty())
                 say << "1 NaN\n";
-            say_points(say, mine);
+            say_points(say, mine, error);
         }
 }
 
@@ -58,20 +60,25 @@ void say_panel(std::ostringstream& say, const std::vector<TimeRow>& rows) {
 
 std::string plot_front(const std::vector<TimeRow>& rows, const std::string& path) {
     std::ostringstream say;
-    say << "set terminal pngcairo size 1500,560 font 'sans,10' background '#ffffff'\nset output "
+    say << "set terminal pngcairo size 1500,1000 font 'sans,10' background '#ffffff'\nset output "
         << plots::quoted(path)
-        << "\nset multiplot layout 1,3 title "
+        << "\nset multiplot layout 2,3 title "
            "'Waveform error against run time (circles: linear elements, dots: quadratic)'\n"
            "set logscale xy\nset format x '10^{%T}'\nset format y '10^{%T}'\nset grid\n"
            "set xlabel 'CPU seconds a simulated second'\n"
-           "set ylabel 'relative error of the surface velocity'\nset yrange [1e-4:10]\n"
            "set key bottom left font ',8'\n";
-    for (std::size_t first = 0; first < rows.size();) {
-        const auto panel =
-            chosen(rows, [&](const TimeRow& r) { return r.scene == rows[first].scene; });
-        say_panel(say, panel);
-        say << "unset key\n";
-        first += panel.size();
+    for (const Error error : {&TimeRow::waveform, &TimeRow::steps}) {
+        say << "set ylabel "
+            << (error == &TimeRow::waveform ? "'relative error of the surface velocity'"
+                                            : "'of it by steps'")
+            << "\n";
+        for (std::size_t first = 0; first < rows.size();) {
+            const auto panel =
+                chosen(rows, [&](const TimeRow& r) { return r.scene == rows[first].scene; });
+            say_panel(say, panel, error);
+            say << "unset key\n";
+            first += panel.size();
+        }
     }
     say << "unset multiplot\n";
     plots::Gnuplot gnuplot;

@@ -97,7 +97,7 @@ TimeScene swinging_block() {
 
 std::vector<TimeScene> time_scenes() {
     return {ringing("bar", make_bar(0.3, 0.02, 0.01, 14, 1, 1), 0.01),
-            ringing("bowl", make_bowl(0.1, 0.005, std::numbers::pi / 2, 4, 24, 1), 0.005),
+            ringing("bowl", make_bowl(0.1, 0.005, std::numbers::pi / 2, 8, 48, 1), 0.005),
             swinging_block()};
 }
 
