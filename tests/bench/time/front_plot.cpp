@@ -16,6 +16,7 @@ constexpr const char* kColours[] = {"#d0202e", "#f0a020", "#3a3a98", "#80c060", 
 using Error = double TimeRow::*;
 
 void say_points(std::ostringstream& say, const std::vector<TimeRow>& rows, Error error) {
+    say << "1 NaN\n"; // gnuplot minds a curve without any line
     for (const TimeRow& row : rows)
         if (std::isfinite(row.*error))
             say << row.run.cpu << ' ' << row.*error << "\n";
@@ -40,18 +41,17 @@ void say_panel(std::ostringstream& say, const std::vector<TimeRow>& rows, Error 
                 << (order == 1 ? "notitle" : "title " + plots::quoted(std::string(kinds[i].name)))
                 << " noenhanced";
     say << "\n";
-    std::vector<TimeRow> front = chosen(rows, [](const TimeRow& r) { return r.on_front; });
+    std::vector<TimeRow> front =
+        chosen(rows, [&](const TimeRow& r) { return r.on_front && error == &TimeRow::waveform; });
     std::sort(front.begin(), front.end(),
               [](const TimeRow& a, const TimeRow& b) { return a.run.cpu < b.run.cpu; });
-    say_points(say, error == &TimeRow::waveform ? front : std::vector<TimeRow>(1), error);
+    say_points(say, front, error);
     for (const IntegratorKind& kind : kinds)
         for (const int order : {1, 2}) {
             const auto mine = chosen(rows, [&](const TimeRow& r) {
                 return r.method.integrator == kind.name && r.method.order == order &&
                        std::isfinite(r.*error);
             });
-            if (mine.empty())
-                say << "1 NaN\n";
             say_points(say, mine, error);
         }
 }
