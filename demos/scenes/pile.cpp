@@ -48,7 +48,7 @@ dSoftBodyID add_soft(World& world, const Pile& pile, const MeshHandle& mesh) {
     contact.damping = pile.beta;
     dSoftRest rest = dSoftRestDefault();
     rest.speed = 0.01; // as ODE's own
-    rest.acceleration = 2;
+    rest.acceleration = 5;
     if (!dSoftBodySetMaterialModel(body, "stable-neo-hookean") ||
         !dSoftBodySetContact(body, &contact) || !dSoftBodySetRest(body, &rest))
         throw Refused("the body can't be had in this form");

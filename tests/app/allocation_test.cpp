@@ -92,6 +92,45 @@ TEST(Allocation, StepOfAnAttachedBodyAllocatesNothing) {
     EXPECT_EQ(allocations - before, 0);
 }
 
+// Two cubes that lie on each other; then both asleep.
+TEST(Allocation, SoftOnSoftByEitherMethodAndAsleepAllocatesNothing) {
+    for (const char* method : {"closest-point", "volume"}) {
+        ode::test::OdeApp app(-9.81);
+        WorldHandle soft(dSoftWorldCreate(app.world, app.space));
+        ASSERT_EQ(dSoftWorldSetSoftContactMethod(soft, method), 1);
+        dCreatePlane(app.space, 0, 0, 1, 0);
+        dSoftSolid solid = dSoftSolidDefault();
+        solid.young = 1e6;
+        solid.density = 1000;
+        solid.beta = 1e-4;
+        const MeshHandle mesh(dSoftMeshCreateBox(0.1, 0.1, 0.1, 2, 2, 2));
+        dSoftBodyID body[2];
+        for (int i = 0; i < 2; ++i) {
+            body[i] = dSoftBodyCreate(soft, mesh, &solid);
+            dSoftBodySetPosition(body[i], 0.01 * i, 0, 0.05 + 0.1 * i);
+        }
+        const auto steps = [&](int count) {
+            const long before = allocations;
+            for (int i = 0; i < count; ++i)
+                dSoftWorldStep(soft, 0.004, no_rigid_step);
+            return allocations - before;
+        };
+        steps(25);
+        EXPECT_EQ(steps(50), 0) << method;
+        dSoftStatus status{};
+        status.struct_size = sizeof status;
+        dSoftBodyGetStatus(body[1], &status);
+        EXPECT_GT(status.contact_points, 0) << "the test must cover contact";
+        for (const dSoftBodyID b : body)
+            dSoftBodyDisable(b);
+        EXPECT_EQ(steps(20), 0) << method << ", asleep";
+        EXPECT_EQ(dSoftBodyIsEnabled(body[0]), 0);
+        dSoftBodyEnable(body[0]);
+        EXPECT_EQ(steps(20), 0) << method << ", woken: friction was kept";
+        EXPECT_EQ(dSoftBodyIsEnabled(body[1]), 1) << "it wakes with its neighbour";
+    }
+}
+
 int (*ode_step)(dWorldID, dReal);
 void (*ode_collide)(dSpaceID, void*, dNearCallback*);
 

@@ -1,5 +1,6 @@
 #include "couple/tet_overlap.h"
 
+#include <cmath>
 #include <cstddef>
 
 namespace ode::soft {
@@ -123,10 +124,20 @@ bool some_face_of(const std::array<Plane, 4>& plane, const Tet& other) noexcept 
     return false;
 }
 
+double gap_before(const std::array<Plane, 4>& plane, const Tet& other) noexcept {
+    double most = -HUGE_VAL;
+    for (const Plane& p : plane) {
+        const double least = std::fmin(std::fmin(p.above(other[0]), p.above(other[1])),
+                                       std::fmin(p.above(other[2]), p.above(other[3])));
+        most = std::fmax(most, least / p.normal.norm());
+    }
+    return most;
+}
+
 } // namespace
 
-bool face_separates(const Tet& a, const Tet& b) noexcept {
-    return some_face_of(planes_of(a), b) || some_face_of(planes_of(b), a);
+double face_gap(const Tet& a, const Tet& b) noexcept {
+    return std::fmax(gap_before(planes_of(a), b), gap_before(planes_of(b), a));
 }
 
 bool overlap_of(const Tet& a, const Tet& b, TetOverlap& out) noexcept {

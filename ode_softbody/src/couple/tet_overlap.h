@@ -25,8 +25,8 @@ struct TetOverlap {
 /// @return false when they don't overlap; `out` is then untouched.
 bool overlap_of(const Tet& a, const Tet& b, TetOverlap& out) noexcept;
 
-/// Whether some face of either has the whole other before it. Cheap; true says they are apart,
-/// false says nothing.
-bool face_separates(const Tet& a, const Tet& b) noexcept;
+/// How far before some face of either the whole other lies, at most [m]. Cheap. Above 0 they are
+/// apart, by that at least; below, nothing is known.
+double face_gap(const Tet& a, const Tet& b) noexcept;
 
 } // namespace ode::soft

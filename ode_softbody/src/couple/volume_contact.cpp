@@ -61,7 +61,8 @@ void VolumeContact::begin_step(const SoftPartner& a, const SoftPartner& b) noexc
 }
 
 void VolumeContact::schedule(double budget) noexcept {
-    look_again_in_ = budget / (kHaste * fastest_ + std::sqrt(kAcceleration * budget / 2));
+    rate_ = kHaste * fastest_ + std::sqrt(kAcceleration * budget / 2);
+    look_again_in_ = budget / rate_;
 }
 
 void VolumeContact::look(const SoftSide& a, const SoftSide& b, double dt, unsigned long when,
@@ -70,6 +71,7 @@ void VolumeContact::look(const SoftSide& a, const SoftSide& b, double dt, unsign
     const SurfaceNodes& nodes_b = b_.surface().nodes();
     const double slack = kSlack * std::fmin(nodes_a.mean_edge, nodes_b.mean_edge);
     ++tally.looks;
+    way_ = 0;
     fresh_.clear();
     double nearest = HUGE_VAL;
     double apart = 0;
@@ -111,6 +113,7 @@ void VolumeContact::keep_memory() {
             ++old;
         if (old != near_.end() && !near.before(*old))
             near = *old;
+        near.wake = 0;
     }
     std::swap(near_, fresh_);
     touch_.clear();
@@ -132,6 +135,8 @@ void VolumeContact::find_touching(const SoftSide& a, const SoftSide& b, double d
     touch_.clear();
     for (std::size_t i = 0; i < near_.size(); ++i) {
         Near& near = near_[i];
+        if (way_ < near.wake)
+            continue;
         Touch touch{};
         touch.near = i;
         ++tally.tests;
@@ -140,6 +145,7 @@ void VolumeContact::find_touching(const SoftSide& a, const SoftSide& b, double d
         if (!overlap_of(first, second, touch.shape) || !(volume_of(first) > 0) ||
             !(volume_of(second) > 0)) {
             near = {.first = near.first, .second = near.second};
+            near.wake = way_ + face_gap(first, second);
             continue;
         }
         each_corner(touch, a, b, [&](const SoftSide& side, std::size_t n, const Vec3& gradient) {
@@ -247,6 +253,7 @@ SoftContactTally VolumeContact::add_force(const SoftSide& a, const SoftSide& b, 
     for (int i = 0; i < kSweeps; ++i)
         sweep(a, b, dt);
     tally.bearing = drag(a, b, dt);
+    way_ += rate_ * dt;
     return tally;
 }
 

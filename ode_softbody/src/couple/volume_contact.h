@@ -40,6 +40,7 @@ private:
         Vec3 stretch = Vec3::Zero(); ///< of the friction spring, world [m]
         double stiffness = 0;        ///< kappa, never rises while it bears [N/m^5]
         double paid = 0;             ///< energy taken and not given back [J]
+        double wake = 0;             ///< way until which they can't overlap [m]
         bool bears = false;
         bool before(const Near& o) const noexcept {
             return first != o.first ? first < o.first : second < o.second;
@@ -78,6 +79,8 @@ private:
     double softest_damping_ = 0; ///< dashpot [1/s]
     double kappa_ = 0;           ///< [N/m^5]
     double fastest_ = 0;         ///< that they move on each other [m/s]
+    double rate_ = 0;            ///< the same, with room till the next look [m/s]
+    double way_ = 0;             ///< since the last look, at most [m]
     double last_dt_ = 0;
     double look_again_in_ = 0; ///< [s]
     std::vector<Near> near_;   ///< ascending

@@ -110,7 +110,7 @@ std::vector<FilterRow> compare_filters(int count) {
     for (const Pair& p : pairs)
         truth.push_back(meets(p));
     return {run("eight face planes (ours)", pairs, truth,
-                [](const Pair& p) { return !face_separates(p.a, p.b); }),
+                [](const Pair& p) { return face_gap(p.a, p.b) <= 0; }),
             run("libccd, GJK boolean, scaled", pairs, truth, ccd_meets),
             run("the overlap itself, planes first", pairs, truth, meets)};
 }
