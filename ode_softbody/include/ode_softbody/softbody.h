@@ -161,6 +161,9 @@ DSOFT_API dReal dSoftBodyGetSubstep(dSoftBodyID body);
 /** Largest stable substep of the body's integrator at rest [s]: a lower bound of it. Infinite for
  * the implicit ones; 0 for those that let undamped vibrations grow at any step. */
 DSOFT_API dReal dSoftBodyGetCriticalStep(dSoftBodyID body);
+/** The same of the body as it is deformed and held now: it shrinks under stretch. Costs some
+ * seventy products with the stiffness matrix. */
+DSOFT_API dReal dSoftBodyEstimateCriticalStep(dSoftBodyID body);
 
 /** Moves the body as a rigid whole so that its centre of mass is here [m]. */
 DSOFT_API int dSoftBodySetPosition(dSoftBodyID body, dReal x, dReal y, dReal z);
@@ -261,6 +264,15 @@ typedef struct dSoftStatus {
     dReal min_jacobian;  /**< least volume ratio of an element in the last step */
     dReal max_stretch;   /**< upper bound of the largest stretch in the last step */
     int contact_points;  /**< that bore force in the last substep */
+    dReal safe_substep;  /**< that the body bears at present [s]: less than `substep` while it is
+                              stretched, or after it was taken back */
+    dReal energy;        /**< kinetic and elastic at the last look [J]; without the flight of a body
+                              that nothing holds */
+    dReal energy_due;    /**< the least found lately, and the work done since by contacts, forces,
+                              nails and (on a body that is held) gravity [J]. A body whose energy
+                              swings beyond it, twice at least and ten times at most, is unstable */
+    int rollbacks;       /**< times that it was taken back to the start of a step, since creation */
+    int failed_solves;   /**< substeps for which its implicit integrator found no solution */
 } dSoftStatus;
 DSOFT_API int dSoftBodyGetStatus(dSoftBodyID body, dSoftStatus* status);
 
@@ -293,7 +305,11 @@ typedef struct dSoftSubstep {
 } dSoftSubstep;
 
 /** Called after each substep for each awake body, in order of registration. Must not change the
- * world, its bodies or its observers. */
+ * world, its bodies or its observers. A body that goes unstable is taken back to the start of ODE's
+ * step with all others, and the step is redone at shorter substeps. Nobody sees a moment twice:
+ * views go on where they had got to, `dt` since then, with the motion of the new attempt, which may
+ * differ from the old by as much as the instability had grown to. Contacts' impulses of the failed
+ * attempt reach no rigid body. */
 typedef void dSoftSubstepCallback(void* data, const dSoftSubstep* substep);
 
 /** Called once a step, after its substeps and before ODE's own step.

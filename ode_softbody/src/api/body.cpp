@@ -99,6 +99,13 @@ dReal dSoftBodyGetCriticalStep(dSoftBodyID id) {
     return body->critical_step();
 }
 
+dReal dSoftBodyEstimateCriticalStep(dSoftBodyID id) {
+    Body* body = live(id, __func__);
+    if (!body)
+        return 0;
+    return guarded(__func__, dReal(0), [&] { return body->present_critical_step(); });
+}
+
 int dSoftBodySetPosition(dSoftBodyID id, dReal x, dReal y, dReal z) {
     Body* body = live(id, __func__);
     if (!body || !may_edit(body->world(), __func__))
@@ -273,6 +280,11 @@ int dSoftBodyGetStatus(dSoftBodyID id, dSoftStatus* status) {
     all.min_jacobian = body->extremes().min_jacobian;
     all.max_stretch = body->extremes().max_stretch;
     all.contact_points = static_cast<int>(body->bearing_points());
+    all.safe_substep = body->safe_substep();
+    all.energy = body->budget().energy();
+    all.energy_due = body->budget().budget();
+    all.rollbacks = body->rollbacks();
+    all.failed_solves = body->failed_solves();
     return copy_out(__func__, all, status);
 }
 

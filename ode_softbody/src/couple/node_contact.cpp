@@ -92,6 +92,28 @@ void NodeContact::begin_step(const RigidShape& shape, const ContactLaw& law,
     look_again_in_ = 0;
 }
 
+void NodeContact::keep() {
+    kept_.anchor = anchor_;
+    kept_.entered = entered_;
+    kept_.anchored = anchored_;
+    kept_.overlap = overlap_;
+    kept_.bearing = bearing_;
+    kept_.softening = softening_;
+    samples_.keep();
+    poles_.keep();
+}
+
+void NodeContact::take_back() noexcept {
+    anchor_.swap(kept_.anchor);
+    entered_.swap(kept_.entered);
+    anchored_.swap(kept_.anchored);
+    overlap_.swap(kept_.overlap);
+    bearing_ = kept_.bearing;
+    softening_ = kept_.softening;
+    samples_.take_back();
+    poles_.take_back();
+}
+
 void NodeContact::prepare_points() {
     is_prepared_ = true;
     recess_.clear();
@@ -185,7 +207,8 @@ void NodeContact::probe_candidates(const NodeArray& position, const NodeArray& v
 }
 
 ContactTally NodeContact::add_force(const NodeArray& position, const NodeArray& velocity,
-                                    RigidShadow& rigid, double dt, NodeArray& force) noexcept {
+                                    RigidShadow& rigid, double dt,
+                                    const NodeForces& force) noexcept {
     ContactTally tally;
     if (look_again_in_ <= 0) {
         if (shape_.kind == ShapeKind::probed)
@@ -290,7 +313,7 @@ double NodeContact::find_touching_planes(const NodeArray& position, const NodeAr
 }
 
 void NodeContact::push(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid,
-                       double dt, NodeArray& force) noexcept {
+                       double dt, const NodeForces& force) noexcept {
     const RigidMotion& motion = rigid.motion();
     const Pose pose = shape_.pose.in(motion.pose);
     for (const Touch& touch : touch_) {
@@ -328,7 +351,7 @@ void NodeContact::push(const NodeArray& position, const NodeArray& velocity, Rig
         clamp_length(f, grip);
         f += press * touch.normal;
 
-        force[n] += f;
+        force.add(n, f);
         rigid.add({-f, -(x - motion.pose.position).cross(f)});
     }
 }

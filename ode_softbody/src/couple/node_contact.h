@@ -2,6 +2,7 @@
 
 #include "collide/rigid_shape.h"
 #include "couple/contact_law.h"
+#include "couple/node_forces.h"
 #include "couple/pole_contact.h"
 #include "couple/rigid_shadow.h"
 #include "couple/sample_contact.h"
@@ -59,7 +60,11 @@ public:
     /// their reaction to `rigid`. Looks for nodes near the
     /// shape anew whenever they may have come within reach since it looked last.
     ContactTally add_force(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid,
-                           double dt, NodeArray& force) noexcept;
+                           double dt, const NodeForces& force) noexcept;
+
+    /// Remembers the start of a step, and goes back to it when the step is redone.
+    void keep();
+    void take_back() noexcept;
 
     /// Some node bore force in the last substep.
     bool bearing() const noexcept { return bearing_ != 0; }
@@ -94,7 +99,7 @@ private:
     double find_touching_planes(const NodeArray& position, const NodeArray& velocity,
                                 const RigidShadow& rigid, double dt) noexcept;
     void push(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid, double dt,
-              NodeArray& force) noexcept;
+              const NodeForces& force) noexcept;
 
     const SurfaceNodes& nodes_;
     dGeomID geom_;
@@ -125,6 +130,13 @@ private:
     double look_again_in_ = 0;             ///< [s]
     std::size_t bearing_ = 0;
     double softening_ = 1; ///< in the last substep
+    struct Memory {
+        std::vector<Vec3> anchor, entered;
+        std::vector<std::uint8_t> anchored;
+        std::vector<Overlap> overlap;
+        std::size_t bearing = 0;
+        double softening = 1;
+    } kept_; ///< of the start of the step
 };
 
 } // namespace ode::soft

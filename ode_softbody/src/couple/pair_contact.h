@@ -27,6 +27,9 @@ public:
     PairContact& operator=(const PairContact&) = delete;
 
     virtual void begin_step(const SoftPartner& a, const SoftPartner& b) noexcept = 0;
+    /// Remembers the start of a step, and goes back to it when the step is redone.
+    virtual void keep() = 0;
+    virtual void take_back() noexcept = 0;
 
     /// Adds forces to both sides.
     /// @param when  names the state of motion, for the trees.

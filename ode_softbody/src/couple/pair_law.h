@@ -1,6 +1,7 @@
 #pragma once
 
 #include "couple/contact_law.h"
+#include "couple/node_forces.h"
 #include "couple/soft_surface.h"
 
 #include <span>
@@ -12,7 +13,7 @@ struct SoftSide {
     const NodeArray& position;
     const NodeArray& velocity;            ///< half a substep back
     std::span<const double> inverse_mass; ///< of every mesh node [1/kg]; 0: held
-    NodeArray& force;                     ///< all that acts, contact last [N]
+    NodeForces force;                     ///< all that acts, contact last [N]
 };
 
 /// A body's part in a pair, settled at the start of a step.

@@ -242,7 +242,7 @@ double PoleContact::find_touching(const NodeArray& position, const NodeArray& ve
 
 std::size_t PoleContact::push(const NodeArray& velocity, std::span<const double> inverse_mass,
                               double softening, double dt, RigidShadow& rigid,
-                              NodeArray& force) noexcept {
+                              const NodeForces& force) noexcept {
     std::size_t bearing = 0;
     for (std::size_t p = 0; p < pole_count_; ++p) {
         Pole& pole = pole_[p];

@@ -27,6 +27,14 @@ public:
     /// @param share  of what a node bears, that is this contact's
     void begin_step(const RigidShape& shape, const ContactLaw& law, double share, double dt);
     void forget() noexcept { pole_count_ = 0; }
+    void keep() noexcept { ///< as NodeContact's
+        kept_ = pole_;
+        kept_count_ = pole_count_;
+    }
+    void take_back() noexcept {
+        pole_ = kept_;
+        pole_count_ = kept_count_;
+    }
 
     /// Chooses the nodes at which bulges come nearest among those near the shape: where all
     /// neighbours are farther, and as steep to the shape, in the rest frame, as the nearest of all,
@@ -40,7 +48,8 @@ public:
                          const RigidShadow& rigid, double dt, unsigned long& tests) noexcept;
     bool is_touching() const noexcept { return touching_; }
     std::size_t push(const NodeArray& velocity, std::span<const double> inverse_mass,
-                     double softening, double dt, RigidShadow& rigid, NodeArray& force) noexcept;
+                     double softening, double dt, RigidShadow& rigid,
+                     const NodeForces& force) noexcept;
 
 private:
     struct Pole {
@@ -69,8 +78,8 @@ private:
     ContactLaw law_;
     double share_ = 0;
     double dt_ = 0;
-    std::array<Pole, kMostPoles> pole_;
-    std::size_t pole_count_ = 0;
+    std::array<Pole, kMostPoles> pole_, kept_;
+    std::size_t pole_count_ = 0, kept_count_ = 0;
     bool touching_ = false;
 };
 

@@ -25,6 +25,8 @@ namespace ode::soft {
 class RigidContacts {
 public:
     void begin_step() noexcept;
+    void keep() { kept_ = point_; } ///< as NodeContact's
+    void take_back() noexcept { point_.swap(kept_); }
     /// A contact of this step. @param first, second  shadows by index; the normal points to first.
     void meet(const dContact& contact, std::size_t first, std::size_t second,
               std::span<const RigidShadow> shadow, double h, double dt);
@@ -72,7 +74,7 @@ private:
     static Vec3 place_of(const Point& point, std::span<const RigidShadow> shadow) noexcept;
     Point* find(const Point& fresh, std::span<const RigidShadow> shadow) noexcept;
 
-    std::vector<Point> point_;
+    std::vector<Point> point_, kept_;
 };
 
 } // namespace ode::soft

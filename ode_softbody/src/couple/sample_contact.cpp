@@ -164,7 +164,7 @@ double SampleContact::find_touching(const NodeArray& position, const NodeArray& 
 
 std::size_t SampleContact::push(const NodeArray& velocity, std::span<const double> inverse_mass,
                                 double softening, double dt, RigidShadow& rigid,
-                                NodeArray& force) noexcept {
+                                const NodeForces& force) noexcept {
     std::size_t bearing = 0;
     for (const Touch& touch : touch_)
         bearing += push_triangle(touch, state_[index(touch.sample)], law_, touch.damping, softening,

@@ -37,12 +37,15 @@ public:
                          unsigned long& tests) noexcept;
     /// Adds the forces of the contacts found. @return how many bore one.
     std::size_t push(const NodeArray& velocity, std::span<const double> inverse_mass,
-                     double softening, double dt, RigidShadow& rigid, NodeArray& force) noexcept;
+                     double softening, double dt, RigidShadow& rigid,
+                     const NodeForces& force) noexcept;
 
     bool is_touching() const noexcept { return !touch_.empty(); }
     double reach() const noexcept; ///< of the farthest sample from the shape's origin [m]
     bool is_near() const noexcept { return !near_.empty(); }
     void forget() noexcept;
+    void keep() { kept_ = state_; } ///< as NodeContact's
+    void take_back() noexcept { state_.swap(kept_); }
 
 private:
     struct State : TouchState {
@@ -72,7 +75,7 @@ private:
     double dt_ = 0;
     double spacing_ = 0; ///< [m]
     std::vector<RigidSample> sample_;
-    std::vector<State> state_;
+    std::vector<State> state_, kept_;
     std::vector<Near> near_;
     std::vector<int> pair_; ///< triangles
     std::vector<Touch> touch_;

@@ -31,6 +31,20 @@ void SoftContact::begin_step(const SoftPartner& a, const SoftPartner& b) noexcep
     look_again_in_ = 0;
 }
 
+void SoftContact::keep() {
+    points_of_a_.keep();
+    if (points_of_b_)
+        points_of_b_->keep();
+    kept_dt_ = last_dt_;
+}
+
+void SoftContact::take_back() noexcept {
+    points_of_a_.take_back();
+    if (points_of_b_)
+        points_of_b_->take_back();
+    last_dt_ = kept_dt_;
+}
+
 void SoftContact::schedule(double budget) noexcept {
     rate_ = kHaste * fastest_ + std::sqrt(kAcceleration * budget / 2);
     look_again_in_ = budget / rate_;

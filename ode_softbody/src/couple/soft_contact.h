@@ -20,6 +20,8 @@ public:
     bool is_self() const noexcept { return &a_ == &b_; }
 
     void begin_step(const SoftPartner& a, const SoftPartner& b) noexcept override;
+    void keep() override;
+    void take_back() noexcept override;
 
     SoftContactTally add_force(const SoftSide& a, const SoftSide& b, double dt,
                                unsigned long when) override;
@@ -40,7 +42,7 @@ private:
     double fastest_ = 0;                        ///< that the surfaces move on each other [m/s]
     double rate_ = 0;                           ///< the same, with room till the next look [m/s]
     double way_ = 0;                            ///< since the last look, at most [m]
-    double last_dt_ = 0;                        ///< of the last substep [s]
+    double last_dt_ = 0, kept_dt_ = 0;          ///< of the last substep [s]
     double look_again_in_ = 0;                  ///< [s]
 };
 

@@ -48,6 +48,7 @@ SurfaceContact::SurfaceContact(const SoftSurface& points, const SoftSurface& fac
     : points_(points), faces_(faces), self_(self), state_(points.points().size()) {
     near_.reserve(state_.size());
     touch_.reserve(state_.size());
+    kept_touch_.reserve(state_.size());
     found_.reserve(64);
     face_.reserve(16 * state_.size());
 }
@@ -306,11 +307,11 @@ void SurfaceContact::apply(const Touch& touch, const Vec3& f, const SoftSide& po
                            const SoftSide& faces) const noexcept {
     const SurfacePoint& point = points_.points()[index(touch.point)];
     const auto& corner = faces_.nodes().triangle[index(touch.triangle)];
-    points.force[index(point.node[0])] += point.weight[0] * f;
+    points.force.add(index(point.node[0]), point.weight[0] * f);
     if (point.weight[1] != 0)
-        points.force[index(point.node[1])] += point.weight[1] * f;
+        points.force.add(index(point.node[1]), point.weight[1] * f);
     for (int i = 0; i < 3; ++i)
-        faces.force[index(corner[index(i)])] -= touch.at.weight[i] * f;
+        faces.force.add(index(corner[index(i)]), -touch.at.weight[i] * f);
 }
 
 std::size_t SurfaceContact::drag(const SoftSide& points, const SoftSide& faces,
@@ -343,7 +344,7 @@ std::size_t SurfaceContact::drag(const SoftSide& points, const SoftSide& faces,
         const std::array<Vec3, 3> pair = spread_couple(x, -arm.cross(f));
         if (pair[0].allFinite() && pair[1].allFinite() && pair[2].allFinite())
             for (std::size_t i = 0; i < 3; ++i)
-                faces.force[index(corner[i])] += pair[i];
+                faces.force.add(index(corner[i]), pair[i]);
     }
     return bearing;
 }

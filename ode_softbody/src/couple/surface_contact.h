@@ -37,6 +37,14 @@ public:
     SurfaceContact(const SoftSurface& points, const SoftSurface& faces, bool self);
 
     void begin_step(const PairLaw& law) noexcept { law_ = law; }
+    void keep() { ///< as NodeContact's
+        kept_state_ = state_;
+        kept_touch_ = touch_;
+    }
+    void take_back() noexcept {
+        state_.swap(kept_state_);
+        touch_.swap(kept_touch_);
+    }
 
     /// Lists the points that may touch, and the triangles that may be closest to them, for as long
     /// as no point moves more than `slack` [m] against the faces. The faces' tree must fit.
@@ -129,10 +137,10 @@ private:
     const SoftSurface& faces_;
     bool self_;
     PairLaw law_;
-    std::vector<State> state_; ///< per point
+    std::vector<State> state_, kept_state_; ///< per point
     std::vector<Near> near_;
     std::vector<int> face_; ///< triangles
-    std::vector<Touch> touch_;
+    std::vector<Touch> touch_, kept_touch_;
     std::vector<Found> found_; ///< scratch of look()
 };
 

@@ -27,7 +27,7 @@ double load_of(const TriangleTouch& touch, const TouchState& state, double dampi
 bool push_triangle(const TriangleTouch& touch, TouchState& state, const ContactLaw& law,
                    double damping, double softening, const SurfaceNodes& surface,
                    const NodeArray& velocity, std::span<const double> inverse_mass, double dt,
-                   RigidShadow& rigid, NodeArray& force) noexcept {
+                   RigidShadow& rigid, const NodeForces& force) noexcept {
     const auto& corner = surface.triangle[index(touch.triangle)];
     const Vec3& weight = touch.at.weight;
     const double k = softening * state.stiffness;
@@ -61,7 +61,7 @@ bool push_triangle(const TriangleTouch& touch, TouchState& state, const ContactL
     clamp_length(f, grip);
     f += press * state.normal;
     for (int i = 0; i < 3; ++i)
-        force[index(corner[index(i)])] -= weight[i] * f;
+        force.add(index(corner[index(i)]), -weight[i] * f);
     rigid.add({f, (touch.at.point - rigid.motion().pose.position).cross(f)});
     return true;
 }

@@ -3,6 +3,7 @@
 #include "collide/closest_point.h"
 #include "couple/contact_law.h"
 #include "couple/hertz_spring.h"
+#include "couple/node_forces.h"
 #include "couple/rigid_shadow.h"
 #include "couple/surface_nodes.h"
 
@@ -47,6 +48,6 @@ double load_of(const TriangleTouch& touch, const TouchState& state, double dampi
 bool push_triangle(const TriangleTouch& touch, TouchState& state, const ContactLaw& law,
                    double damping, double softening, const SurfaceNodes& surface,
                    const NodeArray& velocity, std::span<const double> inverse_mass, double dt,
-                   RigidShadow& rigid, NodeArray& force) noexcept;
+                   RigidShadow& rigid, const NodeForces& force) noexcept;
 
 } // namespace ode::soft

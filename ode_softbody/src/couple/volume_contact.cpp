@@ -190,7 +190,7 @@ void VolumeContact::sweep(const SoftSide& a, const SoftSide& b, double dt) noexc
         if (more != 0)
             each_corner(touch, a, b,
                         [&](const SoftSide& side, std::size_t n, const Vec3& gradient) {
-                            side.force[n] -= more * gradient;
+                            side.force.add(n, -more * gradient);
                         });
     }
 }
@@ -232,8 +232,8 @@ std::size_t VolumeContact::drag(const SoftSide& a, const SoftSide& b, double dt)
             -k * near.stretch - std::fmin(k * law_.damping, softest_damping_ / compliance) * across;
         clamp_length(f, most);
         for (std::size_t i = 0; i < 4; ++i) {
-            a.force[index(nodes_a[i])] += weight_a[i] * f;
-            b.force[index(nodes_b[i])] -= weight_b[i] * f;
+            a.force.add(index(nodes_a[i]), weight_a[i] * f);
+            b.force.add(index(nodes_b[i]), -weight_b[i] * f);
         }
     }
     return bearing;

@@ -29,6 +29,16 @@ public:
     VolumeContact(SoftVolume& a, SoftVolume& b);
 
     void begin_step(const SoftPartner& a, const SoftPartner& b) noexcept override;
+    void keep() override {
+        kept_near_ = near_;
+        kept_touch_ = touch_;
+        kept_dt_ = last_dt_;
+    }
+    void take_back() noexcept override {
+        near_.swap(kept_near_);
+        touch_.swap(kept_touch_);
+        last_dt_ = kept_dt_;
+    }
     SoftContactTally add_force(const SoftSide& a, const SoftSide& b, double dt,
                                unsigned long when) override;
 
@@ -81,11 +91,12 @@ private:
     double fastest_ = 0;         ///< that they move on each other [m/s]
     double rate_ = 0;            ///< the same, with room till the next look [m/s]
     double way_ = 0;             ///< since the last look, at most [m]
-    double last_dt_ = 0;
+    double last_dt_ = 0, kept_dt_ = 0;
     double look_again_in_ = 0; ///< [s]
     std::vector<Near> near_;   ///< ascending
-    std::vector<Near> fresh_;  ///< scratch of look()
-    std::vector<Touch> touch_;
+    std::vector<Near> kept_near_;
+    std::vector<Near> fresh_; ///< scratch of look()
+    std::vector<Touch> touch_, kept_touch_;
 };
 
 } // namespace ode::soft

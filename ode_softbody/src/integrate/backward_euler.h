@@ -1,21 +1,16 @@
 #pragma once
 
-#include "integrate/implicit_stage.h"
-#include "integrate/stage.h"
+#include "integrate/one_solve.h"
 
 namespace ode::soft {
 
 /// Backward Euler solved to convergence: x += h v, v += h a, both slopes from the end. First order.
 /// Stable at any step, at the price of damping: |z|^2 = 1 / (1 + (w h)^2).
-class BackwardEuler final : public StagedIntegrator {
+class BackwardEuler final : public OneSolveIntegrator {
 public:
-    explicit BackwardEuler(std::size_t nodes) : StagedIntegrator(nodes), stage_(nodes) {}
+    using OneSolveIntegrator::OneSolveIntegrator;
     StrainExtremes step(const ElasticModel& model, const NodeInertia& inertia, double h,
                         NodeState& state, NodeArray& force) noexcept override;
-
-private:
-    ImplicitStage stage_;
-    NodeState start_;
 };
 
 } // namespace ode::soft

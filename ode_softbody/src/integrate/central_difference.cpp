@@ -55,11 +55,6 @@ void kick_drift(const NodeInertia& inertia, double h, const NodeArray& force,
     run(inertia, h, h, force, state.velocity, state.position.data());
 }
 
-StrainExtremes CentralDifference::evaluate(const ElasticModel& model, const NodeState& state,
-                                           NodeArray& force) noexcept {
-    return model.add_force(state.position, state.velocity, force);
-}
-
 StrainExtremes CentralDifference::step(const ElasticModel&, const NodeInertia& inertia, double h,
                                        NodeState& state, NodeArray& force) noexcept {
     kick_drift(inertia, h, force, state);

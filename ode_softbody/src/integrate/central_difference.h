@@ -1,6 +1,6 @@
 #pragma once
 
-#include "integrate/integrator.h"
+#include "integrate/stage.h"
 
 namespace ode::soft {
 
@@ -17,10 +17,8 @@ void kick_drift(const NodeInertia& inertia, double h, const NodeArray& force,
 /// Central difference, also called leapfrog or Stoermer-Verlet: explicit, second order, symplectic
 /// when undamped, one force a step. Between steps the velocity is that of half a step ago.
 /// Viscosity sees this lagged velocity, which costs stability but no extra solve: critical_step().
-class CentralDifference final : public Integrator {
+class CentralDifference final : public OneStageIntegrator {
 public:
-    StrainExtremes evaluate(const ElasticModel& model, const NodeState& state,
-                            NodeArray& force) noexcept override;
     StrainExtremes step(const ElasticModel& model, const NodeInertia& inertia, double h,
                         NodeState& state, NodeArray& force) noexcept override;
     void begin(const ElasticModel& model, const NodeInertia& inertia, double h, NodeState& state,

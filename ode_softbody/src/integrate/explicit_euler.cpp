@@ -1,13 +1,6 @@
 #include "integrate/explicit_euler.h"
 
-#include "integrate/stage.h"
-
 namespace ode::soft {
-
-StrainExtremes ExplicitEuler::evaluate(const ElasticModel& model, const NodeState& state,
-                                       NodeArray& force) noexcept {
-    return model.add_force(state.position, state.velocity, force);
-}
 
 StrainExtremes ExplicitEuler::step(const ElasticModel&, const NodeInertia& inertia, double h,
                                    NodeState& state, NodeArray& force) noexcept {

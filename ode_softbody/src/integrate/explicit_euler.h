@@ -1,16 +1,14 @@
 #pragma once
 
-#include "integrate/integrator.h"
+#include "integrate/stage.h"
 
 namespace ode::soft {
 
 /// Explicit (forward) Euler: x += h v, v += h a, both slopes from the start. First order. Turns
 /// every undamped oscillation into an outward spiral, |z|^2 = 1 + (w h)^2: only damping makes a
 /// step stable. Here to be compared with.
-class ExplicitEuler final : public Integrator {
+class ExplicitEuler final : public OneStageIntegrator {
 public:
-    StrainExtremes evaluate(const ElasticModel& model, const NodeState& state,
-                            NodeArray& force) noexcept override;
     StrainExtremes step(const ElasticModel& model, const NodeInertia& inertia, double h,
                         NodeState& state, NodeArray& force) noexcept override;
 };

@@ -14,7 +14,8 @@ namespace ode::soft {
 ///
 /// The matrix M (1 + c alpha) + c C + c^2 K is factorised by Eigen's sparse LDL^T; its pattern is
 /// analysed once. What the viscous force changes with position is left out of it: second order in
-/// strain and rate, it costs Newton an iteration, never accuracy. A factorisation allocates.
+/// strain and rate, it costs Newton an iteration, never accuracy. What remains to be allocated in a
+/// step is inside Eigen: a permuted copy of the matrix a factorisation, a vector a solution.
 class ImplicitStage {
 public:
     explicit ImplicitStage(std::size_t nodes);

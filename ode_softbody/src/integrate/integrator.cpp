@@ -27,16 +27,16 @@ std::unique_ptr<Integrator> make(std::size_t nodes) {
 }
 
 constexpr IntegratorKind kKinds[] = {
-    {"central-difference", 2, false, 1, make<CentralDifference>},
-    {"explicit-euler", 1, false, 1, make<ExplicitEuler>},
-    {"symplectic-euler", 1, false, 1, make<SymplecticEuler>},
-    {"modified-euler", 2, false, 2, make<ModifiedEuler>},
-    {"midpoint", 2, false, 2, make<Midpoint>},
-    {"runge-kutta-4", 4, false, 4, make<RungeKutta4>},
-    {"backward-euler", 1, true, 1, make<BackwardEuler>},
-    {"linearised-backward-euler", 1, true, 1, make<LinearisedBackwardEuler>},
-    {"trapezoidal", 2, true, 1, make<Trapezoidal>},
-    {"tr-bdf2", 2, true, 2, make<TrBdf2>},
+    {"central-difference", 2, false, true, 1, make<CentralDifference>},
+    {"explicit-euler", 1, false, false, 1, make<ExplicitEuler>},
+    {"symplectic-euler", 1, false, true, 1, make<SymplecticEuler>},
+    {"modified-euler", 2, false, false, 2, make<ModifiedEuler>},
+    {"midpoint", 2, false, false, 2, make<Midpoint>},
+    {"runge-kutta-4", 4, false, false, 4, make<RungeKutta4>},
+    {"backward-euler", 1, true, false, 1, make<BackwardEuler>},
+    {"linearised-backward-euler", 1, true, false, 1, make<LinearisedBackwardEuler>},
+    {"trapezoidal", 2, true, false, 1, make<Trapezoidal>},
+    {"tr-bdf2", 2, true, false, 2, make<TrBdf2>},
 };
 
 } // namespace

@@ -47,13 +47,14 @@ public:
 
 /// No strain is this bad: the watch over stability takes the body back.
 inline constexpr StrainExtremes kFailedStep{-std::numeric_limits<double>::infinity(),
-                                            std::numeric_limits<double>::infinity()};
+                                            std::numeric_limits<double>::infinity(), 0};
 
 /// What is known of a method by its name.
 struct IntegratorKind {
     std::string_view name;
     int order;     ///< of convergence
     bool implicit; ///< solves for the new state: no step is too long for a linear body
+    bool lags;     ///< keeps the velocity of half a step ago
     int forces;    ///< evaluations of the material a step; of an implicit method an iteration
     std::unique_ptr<Integrator> (*make)(std::size_t nodes);
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -55,7 +56,10 @@ FrequencyBracket largest_frequency(const Eigen::SparseMatrix<double>& k,
         w -= alpha * v;
         diagonal.push_back(alpha);
         beta = w.norm();
-        norm = std::max(norm, std::abs(alpha) + beta);
+        norm = std::isfinite(alpha) ? std::max(norm, std::abs(alpha) + beta)
+                                    : std::numeric_limits<double>::infinity();
+        if (!std::isfinite(norm))
+            break;
         // The vectors span all that a random start can reach: what is left of w is rounding.
         if (beta <= 1e-14 * norm)
             break;
@@ -66,6 +70,8 @@ FrequencyBracket largest_frequency(const Eigen::SparseMatrix<double>& k,
     side.resize(diagonal.size() - 1);
     if (norm == 0)
         return {0, 0};
+    if (!std::isfinite(norm)) // a law without a derivative there: no step is known to be stable
+        return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     // Eigen's test for a vanished off-diagonal is meant for entries near 1; far from it the
     // iteration ends unsorted.
     for (double& x : diagonal)

@@ -2,11 +2,6 @@
 
 namespace ode::soft {
 
-StrainExtremes LinearisedBackwardEuler::evaluate(const ElasticModel& model, const NodeState& state,
-                                                 NodeArray& force) noexcept {
-    return model.add_force(state.position, state.velocity, force);
-}
-
 StrainExtremes LinearisedBackwardEuler::step(const ElasticModel& model, const NodeInertia& inertia,
                                              double h, NodeState& state,
                                              NodeArray& force) noexcept {

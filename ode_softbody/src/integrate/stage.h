@@ -26,6 +26,15 @@ inline void to_acceleration(const NodeInertia& inertia, const NodeArray& velocit
     }
 }
 
+/// A method that looks at the material once a step, at its start.
+class OneStageIntegrator : public Integrator {
+public:
+    StrainExtremes evaluate(const ElasticModel& model, const NodeState& state,
+                            NodeArray& force) noexcept override {
+        return model.add_force(state.position, state.velocity, force);
+    }
+};
+
 /// A method that looks at the material at more than one state of a step. It keeps the material's
 /// share of the force at the start, so that the rest, which is constant, can be told from it.
 class StagedIntegrator : public Integrator {

@@ -4,11 +4,6 @@
 
 namespace ode::soft {
 
-StrainExtremes SymplecticEuler::evaluate(const ElasticModel& model, const NodeState& state,
-                                         NodeArray& force) noexcept {
-    return model.add_force(state.position, state.velocity, force);
-}
-
 StrainExtremes SymplecticEuler::step(const ElasticModel&, const NodeInertia& inertia, double h,
                                      NodeState& state, NodeArray& force) noexcept {
     kick_drift(inertia, h, force, state);

@@ -63,12 +63,13 @@ std::size_t filled_up(std::size_t n, std::size_t to) { return (n + to - 1) / to 
 
 ModalDamping::ModalDamping(std::span<const double> mass, std::span<const double> inverse_mass,
                            std::span<const int> held, std::span<const Vec3> rest,
-                           const DampedModes& damped)
+                           const DampedModes& damped, std::span<const int> nailed)
     : mass_(mass.begin(), mass.end()), inverse_mass_(inverse_mass.begin(), inverse_mass.end()),
-      held_(held.begin(), held.end()), rest_(rest.begin(), rest.end()),
-      rows_(filled_up(3 * mass.size(), kWidth)), decay_(damped.decay.begin(), damped.decay.end()),
-      rest_decay_(damped.rest_decay), interval_(damped.interval), momentum_(rows_, 0.0),
-      change_(rows_, 0.0), amplitude_(filled_up(decay_.size(), kTile), 0.0) {
+      held_(held.begin(), held.end()), nailed_(nailed.begin(), nailed.end()),
+      rest_(rest.begin(), rest.end()), rows_(filled_up(3 * mass.size(), kWidth)),
+      decay_(damped.decay.begin(), damped.decay.end()), rest_decay_(damped.rest_decay),
+      interval_(damped.interval), momentum_(rows_, 0.0), change_(rows_, 0.0),
+      amplitude_(filled_up(decay_.size(), kTile), 0.0) {
     // Mass-orthonormal in the masses of the stepped body too, or a portion could give energy.
     const auto n = static_cast<Eigen::Index>(mass.size());
     Eigen::MatrixXd shape(3 * n, static_cast<Eigen::Index>(decay_.size()));
@@ -147,14 +148,74 @@ void ModalDamping::advance(double dt, NodeState& state) noexcept {
     pending_ = 0;
 }
 
+namespace {
+
+/// Inertia about a centre, and what turns an angular momentum into a spin. Nodes in a line have no
+/// spin about it.
+Mat3 inverse_inertia(std::span<const int> nodes, std::span<const double> mass,
+                     const NodeArray& position, const Vec3& center) noexcept {
+    Mat3 inertia = Mat3::Zero();
+    for (const int node : nodes) {
+        const auto i = static_cast<std::size_t>(node);
+        const Vec3 r = position[i] - center;
+        inertia += mass[i] * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+    }
+    Eigen::SelfAdjointEigenSolver<Mat3> axes;
+    axes.computeDirect(inertia);
+    Vec3 inverse = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+        if (axes.eigenvalues()[k] > 1e-8 * axes.eigenvalues()[2])
+            inverse[k] = 1 / axes.eigenvalues()[k];
+    return axes.eigenvectors() * inverse.asDiagonal() * axes.eigenvectors().transpose();
+}
+
+} // namespace
+
+ModalDamping::Carrier ModalDamping::carrier(const NodeArray& position,
+                                            const NodeArray& velocity) const noexcept {
+    Carrier motion;
+    if (nailed_.empty())
+        return motion;
+    double total = 0;
+    for (const int node : nailed_) {
+        const auto i = static_cast<std::size_t>(node);
+        motion.center += mass_[i] * position[i];
+        motion.velocity += mass_[i] * velocity[i];
+        total += mass_[i];
+    }
+    motion.center /= total;
+    motion.velocity /= total;
+    Vec3 angular = Vec3::Zero();
+    for (const int node : nailed_) {
+        const auto i = static_cast<std::size_t>(node);
+        angular += mass_[i] * (position[i] - motion.center).cross(velocity[i]);
+    }
+    motion.spin = inverse_inertia(nailed_, mass_, position, motion.center) * angular;
+    return motion;
+}
+
+void ModalDamping::give(const Vec3& momentum, const Vec3& angular, const Carrier& to,
+                        NodeState& state) const noexcept {
+    double total = 0;
+    for (const int node : nailed_)
+        total += mass_[static_cast<std::size_t>(node)];
+    const Vec3 gained = momentum / total;
+    const Vec3 spun = inverse_inertia(nailed_, mass_, state.position, to.center) * angular;
+    for (const int node : nailed_) {
+        const auto i = static_cast<std::size_t>(node);
+        state.velocity[i] += gained + spun.cross(state.position[i] - to.center);
+    }
+}
+
 void ModalDamping::apply(double dt, NodeState& state) noexcept {
     const RigidMotions rigid([&](std::size_t i) { return mass_[i]; }, inverse_mass_, held_,
                              state.position);
     const std::size_t nodes = mass_.size();
+    const Carrier frame = carrier(state.position, state.velocity);
     Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
     for (std::size_t i = 0; i < nodes; ++i)
         if (inverse_mass_[i] != 0) {
-            const Vec3 p = mass_[i] * state.velocity[i];
+            const Vec3 p = mass_[i] * (state.velocity[i] - frame.at(state.position[i]));
             linear += p;
             angular += (state.position[i] - rigid.pivot()).cross(p);
         }
@@ -166,7 +227,8 @@ void ModalDamping::apply(double dt, NodeState& state) noexcept {
     for (std::size_t i = 0; i < nodes; ++i) {
         Vec3 own = Vec3::Zero();
         if (inverse_mass_[i] != 0)
-            own = turn.transpose() * (state.velocity[i] - rigid.at(carried, state.position[i]));
+            own = turn.transpose() * (state.velocity[i] - frame.at(state.position[i]) -
+                                      rigid.at(carried, state.position[i]));
         Eigen::Map<Vec3>(momentum_.data() + 3 * i) = mass_[i] * own;
         const double rest = std::expm1(-2 * rest_decay_ * dt);
         Eigen::Map<Vec3>(change_.data() + 3 * i) = rest * own;
@@ -189,10 +251,17 @@ void ModalDamping::apply(double dt, NodeState& state) noexcept {
             angular += (state.position[i] - rigid.pivot()).cross(p);
         }
     const RigidMotions::Motion surplus = rigid.of(linear, angular);
+    Vec3 lost = Vec3::Zero(), turned = Vec3::Zero();
     for (std::size_t i = 0; i < nodes; ++i)
-        if (inverse_mass_[i] != 0)
-            state.velocity[i] += turn * Eigen::Map<const Vec3>(change_.data() + 3 * i) -
-                                 rigid.at(surplus, state.position[i]);
+        if (inverse_mass_[i] != 0) {
+            const Vec3 change = turn * Eigen::Map<const Vec3>(change_.data() + 3 * i) -
+                                rigid.at(surplus, state.position[i]);
+            state.velocity[i] += change;
+            lost -= mass_[i] * change;
+            turned -= mass_[i] * (state.position[i] - frame.center).cross(change);
+        }
+    if (!nailed_.empty())
+        give(lost, turned, frame, state);
 }
 
 } // namespace ode::soft

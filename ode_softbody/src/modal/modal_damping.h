@@ -31,10 +31,14 @@ struct DampedModes {
 class ModalDamping {
 public:
     /// @param mass, inverse_mass  of each node [kg], [1/kg]; 0: held.
-    /// @param held  nodes of inverse mass 0; copied, like all else.
-    /// @param rest  positions without strain [m]
+    /// @param held   nodes of inverse mass 0; copied, like all else.
+    /// @param rest   positions without strain [m]
+    /// @param nailed  those held nodes that a moving body carries: deformation is seen from their
+    ///                motion, and they get the momentum that damping takes from the rest, so that
+    ///                what carries them feels it. Exact for three or more, not in a line.
     ModalDamping(std::span<const double> mass, std::span<const double> inverse_mass,
-                 std::span<const int> held, std::span<const Vec3> rest, const DampedModes& damped);
+                 std::span<const int> held, std::span<const Vec3> rest, const DampedModes& damped,
+                 std::span<const int> nailed = {});
 
     /// To be called after each substep of dt [s]; every interval does the work of those since the
     /// last time. Allocates nothing.
@@ -42,12 +46,25 @@ public:
 
     std::size_t mode_count() const noexcept { return decay_.size(); }
 
+    /// Time not accounted for yet [s]: all there is to remember besides the motion.
+    double pending() const noexcept { return pending_; }
+    void set_pending(double time) noexcept { pending_ = time; }
+
 private:
     void apply(double dt, NodeState& state) noexcept;
     Mat3 rotation(const NodeArray& position) const noexcept;
+    /// Rigid motion of the nailed nodes: their velocity, or one that would give an impulse.
+    struct Carrier {
+        Vec3 center = Vec3::Zero(), velocity = Vec3::Zero(), spin = Vec3::Zero();
+        Vec3 at(const Vec3& x) const noexcept { return velocity + spin.cross(x - center); }
+    };
+    Carrier carrier(const NodeArray& position, const NodeArray& velocity) const noexcept;
+    void give(const Vec3& momentum, const Vec3& angular, const Carrier& to,
+              NodeState& state) const noexcept;
 
     std::vector<double> mass_, inverse_mass_;
     std::vector<int> held_;
+    std::vector<int> nailed_;
     std::vector<int>
         frame_; ///< nodes that tell the rotation: the held ones if they can; all if empty
     std::vector<Vec3> rest_;      ///< from the centre of the frame's nodes [m]

@@ -9,11 +9,12 @@ namespace ode::soft::ODE_SOFT_ISA {
 struct ElasticCorotated {
     using Constants = CorotatedConstants;
 
+    /// @param energy  grows by mu |F - R|^2 + lambda/2 tr(R^T F - I)^2 [J].
     /// @return tr(F^T F); `out` becomes volume * P.
     template <class L>
     [[gnu::always_inline]] static inline typename L::Value
     stress(const Constants& c, const typename L::Value (&f)[3][3], typename L::Value volume,
-           typename L::Value (&out)[3][3]) {
+           typename L::Value (&out)[3][3], typename L::Value& energy) {
         using Value = typename L::Value;
         Value square = f[0][0] * f[0][0];
         for (int i = 1; i < 9; ++i)
@@ -27,6 +28,12 @@ struct ElasticCorotated {
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
                 out[i][j] = L::fma(pressure, r[i][j], shear * (f[i][j] - r[i][j]));
+        Value apart = (f[0][0] - r[0][0]) * (f[0][0] - r[0][0]);
+        for (int i = 1; i < 9; ++i) {
+            const Value d = f[i / 3][i % 3] - r[i / 3][i % 3];
+            apart = L::fma(d, d, apart);
+        }
+        energy = energy + 0.5 * L::fma(pressure, strain, shear * apart);
         return square;
     }
 };

@@ -9,10 +9,12 @@
 
 namespace ode::soft {
 
-/// How far the worst element is from rest: by-products of the force, for the watch over stability.
+/// How far the worst element is from rest, and the energy of all: by-products of the force, for the
+/// watch over stability.
 struct StrainExtremes {
     double min_jacobian = 1; ///< least det F; <= 0 means inverted
     double max_stretch = 1;  ///< upper bound of the largest principal stretch, from tr(F^T F)
+    double energy = 0;       ///< elastic [J]; ElasticModel::energy() but for rounding
 };
 
 /// A deformable solid in space, discretised: everything an integrator needs to know of it.

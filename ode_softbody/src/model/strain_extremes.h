@@ -9,7 +9,7 @@
 
 namespace ode::soft {
 
-inline constexpr DeformationRange kNoDeformation{std::numeric_limits<double>::infinity(), 0};
+inline constexpr DeformationRange kNoDeformation{std::numeric_limits<double>::infinity(), 0, 0};
 
 /// The largest principal stretch l of an element obeys l^2 + 2 J/l <= tr(F^T F), because the other
 /// two squares sum to at least twice their product. So the largest root of l^3 - t l + 2 J = 0
@@ -19,7 +19,7 @@ inline StrainExtremes strain_extremes(const DeformationRange& range) noexcept {
     const double j = std::fmax(range.min_determinant, 0); // inverted elements: l <= sqrt(t)
     const double cosine = std::fmax(-1.0, -j * std::pow(3 / t, 1.5));
     const double stretch = 2 * std::sqrt(t / 3) * std::cos(std::acos(cosine) / 3);
-    return {range.min_determinant, stretch};
+    return {range.min_determinant, stretch, range.energy};
 }
 
 } // namespace ode::soft

@@ -58,7 +58,7 @@ void add_tet10_force(const void* packs, std::size_t count, const typename Law::C
     const Pack* pack = static_cast<const Pack*>(packs);
     Value least = range.min_determinant + Value{};
     Value most = range.max_trace + Value{};
-    Value poison{};
+    Value energy{};
     const Value four = Value{} + 4.0;
     const Value far = Value{} + kGaussFar, near = Value{} + (kGaussNear - kGaussFar);
     for (const Pack* p = pack; p != pack + count; ++p) {
@@ -83,13 +83,12 @@ void add_tet10_force(const void* packs, std::size_t count, const typename Law::C
                 if constexpr (kViscous) {
                     Value f_rate[3][3];
                     multiply<L>(rate[q], b, f_rate);
-                    trace = Law::template stress<L>(constants, f, f_rate, volume, stress);
+                    trace = Law::template stress<L>(constants, f, f_rate, volume, stress, energy);
                 } else {
-                    trace = Law::template stress<L>(constants, f, volume, stress);
+                    trace = Law::template stress<L>(constants, f, volume, stress, energy);
                 }
                 least = L::min(least, determinant<L>(f));
                 most = L::max(most, trace);
-                poison = L::fma(trace, Value{}, poison);
                 multiply_transposed<L>(stress, b, h[q]);
             }
 
@@ -126,7 +125,7 @@ void add_tet10_force(const void* packs, std::size_t count, const typename Law::C
             });
         }
     }
-    widen<L>(range, least, most, poison);
+    widen<L>(range, least, most, energy);
 }
 
 template <class L, class Law>

@@ -5,20 +5,24 @@
 
 namespace ode::soft::ODE_SOFT_ISA {
 
-/// Folds lanes into `range`; a poisoned lane makes it not-a-number.
+/// Folds lanes into `range`; an energy that isn't finite makes all of it not-a-number, which min
+/// and max would forget.
 template <class L>
 [[gnu::always_inline]] inline void widen(DeformationRange& range, typename L::Value least,
-                                         typename L::Value most, typename L::Value poison) {
-    double low[L::kWidth], high[L::kWidth], bad[L::kWidth];
+                                         typename L::Value most, typename L::Value energy) {
+    double low[L::kWidth], high[L::kWidth], stored[L::kWidth];
     __builtin_memcpy(low, &least, sizeof low);
     __builtin_memcpy(high, &most, sizeof high);
-    __builtin_memcpy(bad, &poison, sizeof bad);
+    __builtin_memcpy(stored, &energy, sizeof stored);
     for (int i = 0; i < L::kWidth; ++i) {
         range.min_determinant = low[i] < range.min_determinant ? low[i] : range.min_determinant;
         range.max_trace = high[i] > range.max_trace ? high[i] : range.max_trace;
     }
+    double sum = 0;
     for (int i = 0; i < L::kWidth; ++i)
-        range.min_determinant += bad[i];
+        sum += stored[i];
+    range.energy += sum;
+    range.min_determinant += 0 * sum;
 }
 
 /// Three edge vectors from corner 0 as columns: Ds (P01 3.1).
@@ -49,8 +53,9 @@ template <class Pack>
 }
 
 /// Linear tetrahedra under the constitutive law `Law`, which turns F (and Fdot) into the first
-/// Piola-Kirchhoff stress times volume. Forces are -V P Dm^-T on corners 1..3 and minus their sum
-/// on corner 0, added element by element in the order of the list: one order for all lane widths.
+/// Piola-Kirchhoff stress times volume, and adds the elastic energy. Forces are -V P Dm^-T on
+/// corners 1..3 and minus their sum on corner 0, added element by element in the order of the list:
+/// one order for all lane widths.
 template <class L, class Law, bool kViscous>
 void add_tet4_force(const void* packs, std::size_t count, const typename Law::Constants& constants,
                     const double* position, [[maybe_unused]] const double* velocity, double* force,
@@ -59,7 +64,7 @@ void add_tet4_force(const void* packs, std::size_t count, const typename Law::Co
     const Tet4Pack* pack = static_cast<const Tet4Pack*>(packs);
     Value least = range.min_determinant + Value{};
     Value most = range.max_trace + Value{};
-    Value poison{}; // zero until a number is no longer finite; min and max would forget it
+    Value energy{};
     for (const Tet4Pack* p = pack; p != pack + count; ++p) {
         prefetch(p + kAhead);
         for (int first = 0; first < kPackWidth; first += L::kWidth) {
@@ -76,13 +81,12 @@ void add_tet4_force(const void* packs, std::size_t count, const typename Law::Co
                 Value rate[3][3];
                 gather_edges<L>(velocity, node, edges);
                 multiply<L>(edges, b, rate);
-                trace = Law::template stress<L>(constants, f, rate, volume, stress);
+                trace = Law::template stress<L>(constants, f, rate, volume, stress, energy);
             } else {
-                trace = Law::template stress<L>(constants, f, volume, stress);
+                trace = Law::template stress<L>(constants, f, volume, stress, energy);
             }
             least = L::min(least, determinant<L>(f));
             most = L::max(most, trace);
-            poison = L::fma(trace, Value{}, poison);
 
             Value h[3][3];
             multiply_transposed<L>(stress, b, h);
@@ -100,7 +104,7 @@ void add_tet4_force(const void* packs, std::size_t count, const typename Law::Co
             });
         }
     }
-    widen<L>(range, least, most, poison);
+    widen<L>(range, least, most, energy);
 }
 
 } // namespace ode::soft::ODE_SOFT_ISA

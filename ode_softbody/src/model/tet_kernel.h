@@ -38,14 +38,15 @@ inline constexpr double kGaussFar = 0.13819660112501051518;  // (5 - sqrt 5) / 2
 /// Number of the mid-edge node between two corners.
 inline constexpr int kMidNode[4][4] = {{-1, 4, 6, 7}, {4, -1, 5, 8}, {6, 5, -1, 9}, {7, 8, 9, -1}};
 
-/// Gathered over elements: least det F, greatest tr(F^T F).
+/// Gathered over elements: least det F, greatest tr(F^T F), elastic energy [J].
 struct DeformationRange {
     double min_determinant;
     double max_trace;
+    double energy = 0;
 };
 
-/// Adds the forces of `count` packs to `force`; widens `range`. `pack` is of the shape's type,
-/// arrays are as NodeArray::data(); `velocity` is not read by elastic kernels.
+/// Adds the forces of `count` packs to `force`; widens `range`, its energy grows. `pack` is of the
+/// shape's type, arrays are as NodeArray::data(); `velocity` is not read by elastic kernels.
 template <class Constants>
 using TetForce = void (*)(const void* pack, std::size_t count, const Constants& constants,
                           const double* position, const double* velocity, double* force,

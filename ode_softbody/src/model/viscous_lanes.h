@@ -38,12 +38,12 @@ struct WithViscosity : Elastic {
     [[gnu::always_inline]] static inline typename L::Value
     stress(const typename Elastic::Constants& c, const typename L::Value (&f)[3][3],
            const typename L::Value (&rate)[3][3], typename L::Value volume,
-           typename L::Value (&out)[3][3]) {
+           typename L::Value (&out)[3][3], typename L::Value& energy) {
         Symmetric<L> s{};
         add_viscous<L>(c.viscosity, f, rate, volume, s);
         typename L::Value viscous[3][3];
         times_symmetric<L>(f, s, viscous);
-        const auto trace = Elastic::template stress<L>(c, f, volume, out);
+        const auto trace = Elastic::template stress<L>(c, f, volume, out, energy);
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
                 out[i][j] = out[i][j] + viscous[i][j];

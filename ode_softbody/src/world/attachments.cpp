@@ -11,6 +11,8 @@
 namespace ode::soft {
 namespace {
 
+constexpr double kMoved = 1e-9; ///< [m] by the application, not by rounding
+
 Pose pose_of(dBodyID rigid) noexcept {
     const dReal* x = dBodyGetPosition(rigid);
     const dReal* r = dBodyGetRotation(rigid);
@@ -100,9 +102,13 @@ void Attachments::begin_step(RigidExchange& exchange, double h, double dt) noexc
         const Pose& pose = exchange.shadow(anchor.shadow).motion().pose;
         for (const Group& group : anchor.group)
             if (!group.soft->stopped())
-                for (const Nail& nail : group.nail)
-                    group.soft->state_.position[static_cast<std::size_t>(nail.node)] =
-                        pose.to_world(nail.place);
+                for (const Nail& nail : group.nail) {
+                    auto x = group.soft->state_.position[static_cast<std::size_t>(nail.node)];
+                    const Vec3 place = pose.to_world(nail.place);
+                    if ((place - x).squaredNorm() > kMoved * kMoved)
+                        group.soft->budget_.restart();
+                    x = place;
+                }
     }
 }
 
@@ -111,7 +117,7 @@ void Attachments::bind(RigidExchange& exchange, double dt) noexcept {
         RigidShadow& rigid = exchange.shadow(anchor.shadow);
         anchor.bond.begin(rigid, dt);
         for (const Group& group : anchor.group) {
-            const Body& soft = *group.soft;
+            Body& soft = *group.soft;
             if (soft.stopped())
                 continue;
             for (const Nail& nail : group.nail) {
@@ -125,8 +131,15 @@ void Attachments::bind(RigidExchange& exchange, double dt) noexcept {
             if (!group.soft->stopped())
                 for (const Nail& nail : group.nail) {
                     const auto n = static_cast<std::size_t>(nail.node);
-                    NodeState& state = group.soft->state_;
-                    state.velocity[n] = anchor.bond.velocity(state.position[n]);
+                    Body& soft = *group.soft;
+                    auto velocity = soft.state_.velocity[n];
+                    const Vec3 bound = anchor.bond.velocity(soft.state_.position[n]);
+                    // What holds the node gives it all that its own forces do not.
+                    soft.budget_.add_work(
+                        (bound + velocity)
+                            .dot(soft.mass()[n] * (bound - velocity) - dt * soft.force_[n]) /
+                        2);
+                    velocity = bound;
                 }
     }
 }

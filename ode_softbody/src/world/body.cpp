@@ -10,31 +10,17 @@
 namespace ode::soft {
 namespace {
 
-// Room for what the bound at rest doesn't see: contact stiffness (its share of the largest
-// eigenvalue is limited to 0.15, which shrinks the step by 1/sqrt(1.15) = 0.93) and strain.
-constexpr double kStepSafety = 0.9;
-
 // Of a method without a limit: a quarter of a sample at 48 kHz. The trapezoidal rule is then (w
 // h)^2 / 12 flat, which is a cent at 4 kHz.
 constexpr double kImplicitStep = 1 / (4 * 48e3);
+
+// Of coordinates: what rounding may heap up over millions of substeps, and still be no energy.
+constexpr double kRounding = 1e-12;
 
 // Mass-proportional damping is applied in portions: of at most this many substeps, so that it costs
 // a few per cent, and of at most this loss, so that no portion is a blow.
 constexpr double kDampingInterval = 16;
 constexpr double kDampingLoss = 1e-3;
-
-// Stretch raises the largest frequency of a St. Venant-Kirchhoff solid about in proportion. The
-// substep follows in rungs, and patiently on the way back, because every change costs two forces.
-constexpr double kRung = 1.25;
-constexpr double kSlack = 0.25; ///< of a rung, which kStepSafety bears: 0.9 * 1.25^0.25 < 0.96
-constexpr double kMarginLimit = 10;
-constexpr int kPatience = 100; ///< steps
-
-/// @param stretch  after a failed attempt maybe not a number.
-double rung_above(double stretch) noexcept {
-    const double wanted = stretch < kMarginLimit ? std::max(1.0, stretch) : kMarginLimit;
-    return std::pow(kRung, std::max(0.0, std::ceil(std::log(wanted) / std::log(kRung) - kSlack)));
-}
 
 } // namespace
 
@@ -48,7 +34,8 @@ Body::~Body() {
 Body* Body::behind(dGeomID geom) noexcept { return static_cast<Body*>(soft_geom_client(geom)); }
 
 void Body::use_default_substep() noexcept {
-    substep_ = is_explicit_ ? kStepSafety * longest_substep_ : kImplicitStep;
+    substep_ = is_explicit_ ? kSubstepSafety * longest_substep_ : kImplicitStep;
+    caution_ = 1;
 }
 
 Vec3 Body::center_of_mass() const noexcept {
@@ -83,6 +70,7 @@ double Body::elastic_energy() const noexcept { return model_->energy(state_.posi
 
 void Body::move_to(const Vec3& center) noexcept {
     wake();
+    budget_.restart();
     const Vec3 offset = center - center_of_mass();
     for (std::size_t i = 0; i < state_.position.size(); ++i)
         state_.position[i] += offset;
@@ -91,6 +79,7 @@ void Body::move_to(const Vec3& center) noexcept {
 
 void Body::rotate(const Quat& rotation) noexcept {
     wake();
+    budget_.restart();
     const Mat3 turn = rotation.toRotationMatrix();
     const Vec3 center = center_of_mass();
     for (std::size_t i = 0; i < state_.position.size(); ++i) {
@@ -102,12 +91,14 @@ void Body::rotate(const Quat& rotation) noexcept {
 
 void Body::set_velocity(const Vec3& velocity) noexcept {
     wake();
+    budget_.restart();
     for (std::size_t i = 0; i < state_.velocity.size(); ++i)
         state_.velocity[i] = is_pinned(static_cast<int>(i)) ? Vec3::Zero() : velocity;
 }
 
 void Body::add_spin(const Vec3& omega) noexcept {
     wake();
+    budget_.restart();
     const Vec3 center = center_of_mass();
     for (std::size_t i = 0; i < state_.velocity.size(); ++i)
         if (!is_pinned(static_cast<int>(i)))
@@ -121,6 +112,7 @@ void Body::hold(int node) noexcept {
     wake();
     inverse_mass_[i] = 0;
     modes_stale_ = true;
+    budget_.restart();
     state_.velocity[i].setZero();
     pinned_.insert(std::lower_bound(pinned_.begin(), pinned_.end(), node), node);
 }
@@ -151,6 +143,7 @@ std::vector<int> Body::nail(std::span<const int> nodes) {
     std::vector<int> all;
     wake();
     modes_stale_ = true;
+    budget_.restart();
     const auto take = [&](int node) {
         if (is_held(node))
             return;
@@ -173,6 +166,7 @@ void Body::release(int node) noexcept {
     wake();
     inverse_mass_[i] = 1 / mass()[i];
     modes_stale_ = true;
+    budget_.restart();
     std::erase(nailed_, node);
 }
 
@@ -195,15 +189,6 @@ void Body::add_force(int node, const Vec3& force) noexcept {
     has_external_ = true;
 }
 
-void Body::begin_step() noexcept {
-    stepped_ = true;
-    if (damped_by_modes_ && modes_stale_)
-        find_damped_modes();
-    checkpoint_ = state_;
-    checkpoint_dt_ = last_dt_;
-    extremes_ = {};
-}
-
 void Body::fit_velocity(double dt) noexcept {
     if (dt == last_dt_)
         return;
@@ -212,34 +197,21 @@ void Body::fit_velocity(double dt) noexcept {
     // Nailed nodes hand on what they get, so that the sum of all changes stays zero.
     set_nailed_mass(true);
     const NodeInertia inertia{inverse_mass_};
+    const auto take_force = [&] {
+        std::copy_n(load_.data(), NodeArray::kStride * load_.size(), force_.data());
+        if (last_dt_ > 0 && !meets_movable_)
+            contacts_.each([&](std::size_t n, const auto& f) { force_[n] += f; });
+    };
     if (last_dt_ > 0) {
-        force_.set_zero();
+        if (lags_ && meets_movable_)
+            book_lag(dt);
+        take_force();
         integrator_->end(*model_, inertia, last_dt_, state_, force_);
     }
-    force_.set_zero();
+    take_force();
     integrator_->begin(*model_, inertia, dt, state_, force_);
     set_nailed_mass(false);
     last_dt_ = dt;
-}
-
-bool Body::adapt_margin() noexcept {
-    if (!is_explicit_ && std::isfinite(extremes_.max_stretch))
-        return false; // stretch takes nothing from its stability
-    const double wanted = rung_above(extremes_.max_stretch);
-    if (wanted <= margin_)
-        return false;
-    margin_ = wanted;
-    calm_steps_ = 0;
-    return true;
-}
-
-void Body::relax_margin() noexcept {
-    const double wanted = rung_above(extremes_.max_stretch);
-    calm_steps_ = wanted < margin_ ? calm_steps_ + 1 : 0;
-    if (calm_steps_ <= kPatience)
-        return;
-    margin_ = wanted;
-    calm_steps_ = 0;
 }
 
 void Body::take_load(const Vec3& gravity) noexcept {
@@ -249,12 +221,32 @@ void Body::take_load(const Vec3& gravity) noexcept {
     if (has_external_)
         for (std::size_t i = 0; i < load_.size(); ++i)
             load_[i] += external_[i];
+    total_load_.setZero();
+    double far2 = 0;
+    for (std::size_t i = 0; i < load_.size(); ++i) {
+        total_load_ += load_[i];
+        far2 = std::max(far2, state_.position[i].squaredNorm());
+    }
+    const double rounding = kRounding * largest_frequency_ * std::sqrt(far2); // [m/s]
+    noise_ = total_mass_ * rounding * rounding + elastic_noise_;
+    load_at_look_ = load_now();
 }
 
-void Body::begin_substep() noexcept {
+void Body::begin_substep(bool look) noexcept {
     std::copy_n(load_.data(), NodeArray::kStride * load_.size(), force_.data());
-    note(integrator_->evaluate(*model_, state_, force_));
+    const StrainExtremes now = integrator_->evaluate(*model_, state_, force_);
+    note(now);
+    elastic_ = now.energy;
     bearing_points_ = 0;
+    budget_.begin_substep();
+    contacts_.clear();
+    meets_movable_ = false;
+    looking_ = look || budget_.is_suspicious(elastic_, swing_, noise_);
+    if (!looking_)
+        return;
+    before_ = kinetic_sums(mass(), state_.velocity);
+    add_load_sums(mass(), state_.position, load_, before_);
+    frame_velocity_ = is_free() ? Vec3(before_.momentum / total_mass_) : Vec3(Vec3::Zero());
 }
 
 void Body::note(const StrainExtremes& now) noexcept {
@@ -263,9 +255,26 @@ void Body::note(const StrainExtremes& now) noexcept {
 }
 
 void Body::advance(double dt) noexcept {
-    note(integrator_->step(*model_, NodeInertia{inverse_mass_}, dt, state_, force_));
-    if (modal_damping_)
+    const double before = contact_work(dt);
+    const StrainExtremes met =
+        integrator_->step(*model_, NodeInertia{inverse_mass_}, dt, state_, force_);
+    note(met);
+    if (met.max_stretch == kFailedStep.max_stretch) {
+        failed_solve_ = looking_ = true;
+        ++failed_solves_;
+    }
+    book_contacts(before, dt);
+    damp(dt);
+    if (looking_)
+        finish_look(dt);
+}
+
+void Body::damp(double dt) noexcept {
+    if (modal_damping_) {
+        const double before = nailed_energy();
         modal_damping_->advance(dt, state_);
+        budget_.add_past_work(nailed_energy() - before);
+    }
     if (max_alpha_ == 0)
         return;
     undamped_ += dt;
@@ -277,24 +286,12 @@ void Body::advance(double dt) noexcept {
 
 void Body::end_step() noexcept {
     relax_margin();
-    failures_ = 0;
+    watch_inversion();
+    budget_.add_past_work(load_now() - load_at_look_);
     if (!has_external_)
         return;
     external_.set_zero();
     has_external_ = false;
-}
-
-void Body::roll_back() noexcept {
-    adapt_margin();
-    std::swap(state_, checkpoint_);
-    last_dt_ = checkpoint_dt_;
-}
-
-void Body::stop() noexcept {
-    stopped_ = true;
-    bearing_points_ = 0;
-    state_.velocity.set_zero();
-    moved();
 }
 
 Aabb Body::aabb() noexcept {
@@ -336,13 +333,6 @@ double Body::max_speed() const noexcept {
     for (const int node : surface_.node)
         fastest = std::max(fastest, state_.velocity[static_cast<std::size_t>(node)].squaredNorm());
     return std::sqrt(fastest);
-}
-
-bool Body::is_finite() const noexcept {
-    double sum = 0; // any NaN or infinity survives the sum
-    for (std::size_t i = 0; i < state_.position.size(); ++i)
-        sum += (state_.position[i] + state_.velocity[i]).sum() * 0;
-    return sum == 0;
 }
 
 } // namespace ode::soft

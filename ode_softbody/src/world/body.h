@@ -3,6 +3,7 @@
 #include "base/live_id.h"
 #include "collide/soft_geom.h"
 #include "couple/node_contact.h"
+#include "couple/node_forces.h"
 #include "couple/soft_surface.h"
 #include "couple/soft_volume.h"
 #include "integrate/integrator.h"
@@ -13,6 +14,7 @@
 #include "model/damping.h"
 #include "model/elastic_model.h"
 #include "model/solid.h"
+#include "world/energy_budget.h"
 #include "world/rigid_pairs.h"
 
 #include <algorithm>
@@ -24,6 +26,11 @@
 namespace ode::soft {
 
 class SoftWorld;
+
+// Of the critical step, by default: room for what the bound at rest doesn't see, contact stiffness
+// (its share of the largest eigenvalue is limited to 0.15, which shrinks the step by 1/sqrt(1.15) =
+// 0.93) and strain.
+inline constexpr double kSubstepSafety = 0.9;
 
 /// What a body is solved as.
 struct BodyForm {
@@ -113,9 +120,18 @@ public:
     double critical_step() const noexcept { return critical_step_; }
     /// Longest that is taken [s]: the critical one, where there is one.
     double longest_substep() const noexcept { return longest_substep_; }
-    double substep() const noexcept { return substep_; }    ///< asked for [s]
-    void set_substep(double dt) noexcept { substep_ = dt; } ///< 0 < dt <= longest_substep()
+    double substep() const noexcept { return substep_; } ///< asked for [s]
+    /// What contact laws take for it: stiffness must not change with what is in use [s].
+    double contact_substep() const noexcept { return std::min(substep_, longest_substep_); }
+    /// @param dt  0 < dt <= longest_substep(), or the body will be taken back before long.
+    void set_substep(double dt) noexcept {
+        substep_ = dt;
+        caution_ = 1;
+    }
     void use_default_substep() noexcept;
+    /// critical_step() of the body as it stands now: stretch stiffens. Costs an assembly and about
+    /// 75 products with the stiffness matrix; allocates.
+    double present_critical_step() const;
 
     const ContactLaw& contact_law() const noexcept { return contact_law_; }
     void set_contact_law(const ContactLaw& law) noexcept { contact_law_ = law; }
@@ -137,8 +153,13 @@ public:
     }
     bool is_nailed() const noexcept { return !nailed_.empty(); }
     const StrainExtremes& extremes() const noexcept { return extremes_; } ///< of the last step
-    /// Substep that is stable at the stretch lately met [s].
-    double safe_substep() const noexcept { return substep_ / margin_; }
+    /// Substep that is stable at the stretch lately met, and after what went wrong lately [s].
+    double safe_substep() const noexcept;
+    /// Its energy and what is due of it, at the last look: see EnergyBudget.
+    const EnergyBudget& budget() const noexcept { return budget_; }
+    /// Times that the body was taken back to the start of a step because it went unstable.
+    int rollbacks() const noexcept { return rollbacks_; }
+    int failed_solves() const noexcept { return failed_solves_; } ///< of an implicit integrator
     std::size_t bearing_points() const noexcept { return bearing_points_; }
 
     void* data = nullptr; ///< the application's
@@ -153,7 +174,9 @@ private:
 
     /// Takes over a mesh that has the nodes of the body's own first. @throws InputError
     void build(TetMesh mesh, const BodyForm& form, bool damped_by_modes);
-    void find_critical_step(const IntegratorKind& method, std::span<const Solid> solids);
+    std::vector<Solid> stress_solids(bool damped_by_modes) const; ///< as the model damps them
+    double critical_step_at(const IntegratorKind& method, std::span<const Solid> solids,
+                            double frequency) const;
     void hold(int node) noexcept;
     bool is_held(int node) const noexcept { ///< pinned or nailed
         return inverse_mass_[static_cast<std::size_t>(node)] == 0;
@@ -175,27 +198,51 @@ private:
     int on_ray(dGeomID ray, int flags, dContactGeom* contact, int skip) noexcept override;
     void on_destroyed() noexcept override;
 
-    void begin_step() noexcept;        ///< remembers the state to return to
+    /// Remembers the state to return to; weight and external forces become those of this step.
+    void begin_step(const Vec3& gravity) noexcept;
     void find_damped_modes() noexcept; ///< of the body as it is held now
     /// Brings the velocity to half of `dt` before the positions' time, where the integrator keeps
     /// it.
     void fit_velocity(double dt) noexcept;
-    /// Weight and external forces become those of the substeps to come.
     void take_load(const Vec3& gravity) noexcept;
-    void begin_substep() noexcept;    ///< force_ becomes all that acts but contact
+    /// force_ becomes all that acts but contact. @param look  whether this substep is looked at.
+    void begin_substep(bool look) noexcept;
     void advance(double dt) noexcept; ///< by force_
     /// Before advance(), with all force known. @param passed  since the last look [s].
     void watch_rest(double passed) noexcept;
+    void damp(double dt) noexcept;
     void note(const StrainExtremes& now) noexcept;
     void end_step() noexcept;
+
+    // body_stability.cpp
+    void reset_watch(const std::string& law, double frequency) noexcept;
+    bool is_free() const noexcept { return pinned_.empty() && nailed_.empty(); }
+    double moving_energy(const MotionSums& sum) const noexcept; ///< seen from where it is looked at
+    double load_seen(const MotionSums& sum) const noexcept;     ///< load . x, from there [J]
+    double load_now() const noexcept;
+    double nailed_energy() const noexcept; ///< kinetic [J]
+    /// What is known of contacts before the body moves, and after.
+    double contact_work(double dt) const noexcept;
+    void book_contacts(double before, double dt) noexcept;
+    /// The velocity is about to lag half of dt: contacts that fit_velocity() leaves out push for
+    /// that much longer or shorter.
+    void book_lag(double dt) noexcept;
+    void finish_look(double dt) noexcept;
+    bool is_given_up() const noexcept { return given_up_; }
+    bool was_looked_at() const noexcept { return looking_; }
+    bool is_sound() const noexcept; ///< as far as it was looked at
+    /// Takes measures after the body was found unsound. @return false: there are none left, and it
+    /// is given up.
+    bool take_care() noexcept;
     /// Makes room for the stretch met in this step. @return whether that took a shorter substep.
     bool adapt_margin() noexcept;
     void relax_margin() noexcept; ///< the way back, when it has long not been needed
     void roll_back() noexcept;
     void stop() noexcept;
-    void moved() noexcept; ///< tells ODE that the geom's box is out of date
+    void watch_inversion() noexcept;
+    std::string trouble() const; ///< what is not sound
+    void moved() noexcept;       ///< tells ODE that the geom's box is out of date
     double max_speed() const noexcept;
-    bool is_finite() const noexcept;
 
     SoftWorld& world_;
     TetMesh mesh_;
@@ -207,11 +254,20 @@ private:
     std::unique_ptr<ElasticModel> model_;
     std::unique_ptr<Integrator> integrator_;
     bool is_explicit_ = true; ///< the integrator
+    bool lags_ = true;        ///< its velocity is that of half a substep ago
     NodeState state_;
-    NodeState checkpoint_; ///< at the start of the step, to return to when the step fails
-    NodeArray force_;      ///< [N]
-    NodeArray external_;   ///< the application's, constant over a step [N]
-    NodeArray load_;       ///< gravity and external_ [N]
+    struct Checkpoint { ///< at the start of the step, to return to when the step fails
+        NodeState state;
+        double last_dt = 0;
+        double undamped = 0;
+        double modal_pending = 0;
+        double quiet = 0;
+        EnergyBudget budget;
+    };
+    Checkpoint checkpoint_;
+    NodeArray force_;    ///< [N]
+    NodeArray external_; ///< the application's, constant over a step [N]
+    NodeArray load_;     ///< gravity and external_ [N]
     bool has_external_ = false;
     std::vector<double> alpha_; ///< mass-proportional damping, one for all or one a node [1/s]
     double max_alpha_;
@@ -229,14 +285,35 @@ private:
     double critical_step_;
     double longest_substep_;
     double substep_;
-    double undamped_ = 0;      ///< time since mass-proportional damping was last applied [s]
-    double checkpoint_dt_ = 0; ///< last_dt_ of the checkpoint [s]
-    double last_dt_ = 0;       ///< that the velocity lags half of; 0 before the first step [s]
-    double margin_ = 1;        ///< the substep is shortened by, for stretch
-    int calm_steps_ = 0;       ///< steps in a row that would have done with less margin
+    double undamped_ = 0; ///< time since mass-proportional damping was last applied [s]
+    double last_dt_ = 0;  ///< that the velocity lags half of; 0 before the first step [s]
+    double margin_ = 1;   ///< the substep is shortened by, for stretch
+    double caution_ = 1;  ///< the substep is shortened by, for what went wrong
+    int calm_steps_ = 0;  ///< steps in a row that would have done with less margin
+    int quiet_steps_ = 0; ///< steps in a row in which nothing went wrong
+    EnergyBudget budget_;
+    ContactShare contacts_; ///< of the last substep
+    /// Some of them with what moves and doesn't shift its velocity when substeps change: momentum
+    /// comes first, and this body's isn't shifted for them either.
+    bool meets_movable_ = false;
+    MotionSums before_;       ///< of the substep looked at
+    Vec3 frame_velocity_;     ///< from which energy is looked at [m/s]
+    Vec3 total_load_;         ///< [N]
+    double elastic_ = 0;      ///< energy at the last evaluation [J]
+    double load_at_look_ = 0; ///< load_seen() [J]
+    double swing_ = EnergyBudget::kLeast;
+    double noise_ = 0;             ///< energy that rounding makes [J]
+    double elastic_noise_ = 0;     ///< of it, by the law's cancellation [J]
+    double largest_frequency_ = 0; ///< at rest [rad/s]
+    bool looking_ = false;
+    bool in_budget_ = true;
+    bool given_up_ = false;
+    bool failed_solve_ = false; ///< in this step
+    bool inverted_ = false;     ///< some element is, and it was told
+    int rollbacks_ = 0;
+    int failed_solves_ = 0;
     StrainExtremes extremes_;
     std::size_t bearing_points_ = 0;
-    int failures_ = 0; ///< attempts at this step that went unstable
     bool stepped_ = false;
     bool stopped_ = false;
     bool asleep_ = false;

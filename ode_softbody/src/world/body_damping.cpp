@@ -62,9 +62,10 @@ void Body::find_damped_modes() noexcept {
             for (const double f : modes.frequency)
                 decay.push_back(table.decay(f));
         const double rest = table.empty() ? greatest_decay(solids_, top) : table.decay(top);
-        modal_damping_ =
-            std::make_unique<ModalDamping>(mass(), inverse_mass_, pinned_, mesh_.node,
-                                           DampedModes{modes, decay, rest, 1 / (2 * top)});
+        modal_damping_ = std::make_unique<ModalDamping>(
+            mass(), inverse_mass_, options.clamped, mesh_.node,
+            DampedModes{modes, decay, rest, 1 / (2 * top)},
+            pinned_.empty() ? std::span<const int>(nailed_) : std::span<const int>());
     } catch (const std::exception& e) {
         report(format("a soft body of %zu nodes rings undamped, because its modes can't be had: %s",
                       mesh_.node.size(), e.what()));

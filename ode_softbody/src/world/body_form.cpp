@@ -117,10 +117,7 @@ CurveReport Body::set_form(const BodyForm& form) {
 void Body::build(TetMesh mesh, const BodyForm& form, bool damped_by_modes) {
     const IntegratorKind& method = integrator_kind(form.integrator);
     Surface surface = extract_surface(mesh);
-    std::vector<Solid> solids = solids_;
-    if (damped_by_modes)
-        for (Solid& s : solids)
-            s.phi = s.psi = s.alpha = s.beta = 0;
+    const std::vector<Solid> solids = stress_solids(damped_by_modes);
     auto model = make_model(form.model, mesh, solids);
     const auto least = std::min_element(model->mass().begin(), model->mass().end());
     if (!(*least > 0))
@@ -144,12 +141,13 @@ void Body::build(TetMesh mesh, const BodyForm& form, bool damped_by_modes) {
     model_ = std::move(model);
     contact_nodes_ = std::move(contact_nodes);
     state_ = std::move(state);
-    checkpoint_ = state_;
+    checkpoint_.state = state_;
     external_ = std::move(external);
     force_ = NodeArray(mesh_.node.size());
     load_ = NodeArray(mesh_.node.size());
     integrator_ = method.make(mesh_.node.size());
     is_explicit_ = !method.implicit;
+    lags_ = method.lags;
     total_mass_ = std::accumulate(mass().begin(), mass().end(), 0.0);
     std::vector<int> pinned = std::move(pinned_);
     std::erase_if(pinned, [&](int node) { return static_cast<std::size_t>(node) >= given_nodes_; });
@@ -158,7 +156,12 @@ void Body::build(TetMesh mesh, const BodyForm& form, bool damped_by_modes) {
                    [](double m) { return 1 / m; });
     pinned_.clear();
     // Unpinned: a bound for whatever is held later.
-    find_critical_step(method, solids);
+    const double frequency =
+        largest_frequency(model_->stiffness(state_.position), inverse_mass_).upper;
+    critical_step_ = critical_step_at(method, solids, frequency);
+    // Where modes grow at any step, slowly at a short one: for comparison.
+    longest_substep_ = critical_step_ > 0 ? critical_step_ : 0.1 * 2 / frequency;
+    reset_watch(form.model, frequency);
     pin(pinned);
     use_default_substep();
     damped_by_modes_ = damped_by_modes;
@@ -166,21 +169,31 @@ void Body::build(TetMesh mesh, const BodyForm& form, bool damped_by_modes) {
     modes_stale_ = true;
 }
 
-void Body::find_critical_step(const IntegratorKind& method, std::span<const Solid> solids) {
-    if (method.implicit) {
-        critical_step_ = longest_substep_ = std::numeric_limits<double>::infinity();
-        return;
-    }
+std::vector<Solid> Body::stress_solids(bool damped_by_modes) const {
+    std::vector<Solid> solids = solids_;
+    if (damped_by_modes)
+        for (Solid& s : solids)
+            s.phi = s.psi = s.alpha = s.beta = 0;
+    return solids;
+}
+
+double Body::critical_step_at(const IntegratorKind& method, std::span<const Solid> solids,
+                              double frequency) const {
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (const Solid& solid : solids) {
         least = std::min(least, least_viscous_time(solid));
         most = std::max(most, viscous_time(solid));
     }
-    const double frequency =
-        largest_frequency(model_->stiffness(state_.position), inverse_mass_).upper;
-    critical_step_ = ode::soft::critical_step(method, frequency, least, most);
-    // Where modes grow at any step, slowly at a short one: for comparison.
-    longest_substep_ = critical_step_ > 0 ? critical_step_ : 0.1 * 2 / frequency;
+    return ode::soft::critical_step(method, frequency, least, most);
+}
+
+double Body::present_critical_step() const {
+    const IntegratorKind& method = integrator_kind(form_.integrator);
+    if (method.implicit)
+        return std::numeric_limits<double>::infinity();
+    const std::vector<Solid> solids = stress_solids(damped_by_modes_);
+    return critical_step_at(
+        method, solids, largest_frequency(model_->stiffness(state_.position), inverse_mass_).upper);
 }
 
 } // namespace ode::soft

@@ -7,7 +7,10 @@ namespace ode::soft {
 class Body;
 class SoftWorld;
 
-/// One body at the end of a substep; borrowed, dies on return.
+/// One body at the end of a substep; borrowed, dies on return. Times only grow, and each view
+/// begins where the last one ended: when a step is redone because a body went unstable, what was
+/// shown of it is not shown again, and the views go on from there with the motion of the new
+/// attempt.
 struct SubstepView {
     const Body& body;
     double time; ///< [s] since the world's creation

@@ -16,8 +16,15 @@ constexpr double kLinger = 0.1;
 
 void RigidExchange::begin_step(dWorldID world, std::span<const std::unique_ptr<Body>> bodies,
                                double h, double dt) {
-    if (stepped_) // else this step is tried anew
+    if (stepped_) {
         std::swap(shadow_, before_);
+        rigid_.keep();
+    } else { // this step is redone
+        for (Contact& contact : contact_)
+            contact.law->take_back();
+        rigid_.take_back();
+        rigid_.keep();
+    }
     stepped_ = false;
     h_ = h;
     shadow_.clear();
@@ -38,10 +45,12 @@ void RigidExchange::begin_step(dWorldID world, std::span<const std::unique_ptr<B
             RigidShadow& shadow = shadow_[contact.shadow];
             if (contact.law->bearing())
                 shadow.set_softening(std::min(shadow.softening(), contact.law->softening()));
-            contact.law->begin_step(*shape, pair.law, body->inverse_mass_, body->substep());
+            contact.law->begin_step(*shape, pair.law, body->inverse_mass_, body->contact_substep());
         }
     }
     std::erase_if(contact_, [](const Contact& contact) { return !contact.current; });
+    for (Contact& contact : contact_)
+        contact.law->keep();
     meet_rigid(h, dt);
 }
 
@@ -95,9 +104,13 @@ ContactTally RigidExchange::add_forces(double dt) noexcept {
         rigid_bearing_ += rigid_.add_forces(shadow_, dt);
     for (Contact& contact : contact_) {
         Body& body = *contact.body;
-        const ContactTally tally = contact.law->add_force(
-            body.state_.position, body.state_.velocity, shadow_[contact.shadow], dt, body.force_);
+        const ContactTally tally =
+            contact.law->add_force(body.state_.position, body.state_.velocity,
+                                   shadow_[contact.shadow], dt, {body.force_, &body.contacts_});
         body.bearing_points_ += tally.bearing;
+        const RigidRole role = shadow_[contact.shadow].role();
+        body.meets_movable_ |=
+            tally.bearing != 0 && role != RigidRole::fixed && role != RigidRole::prescribed;
         sum.tests += tally.tests;
         sum.bearing += tally.bearing;
     }

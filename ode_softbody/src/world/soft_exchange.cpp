@@ -13,14 +13,18 @@ bool SoftExchange::before(const Pair& x, const Pair& y) noexcept {
     return std::pair(x.a->number_, x.b->number_) < std::pair(y.a->number_, y.b->number_);
 }
 
-void SoftExchange::begin_step(std::span<const std::unique_ptr<Body>> bodies) {
+void SoftExchange::begin_step(std::span<const std::unique_ptr<Body>> bodies, bool again) {
+    if (again)
+        for (Contact* contact : active_)
+            contact->law->take_back();
     collect_pairs(bodies);
     merge_pairs();
     for (Contact* contact : active_) {
         const auto partner = [](Body& body) {
-            return SoftPartner{surface_of(body), body.contact_law(), body.substep()};
+            return SoftPartner{surface_of(body), body.contact_law(), body.contact_substep()};
         };
         contact->law->begin_step(partner(*contact->pair.a), partner(*contact->pair.b));
+        contact->law->keep();
         for (const Body* body : {contact->pair.a, contact->pair.b})
             if (!body->moves() && held_.size() < body->mass().size())
                 held_.assign(body->mass().size(), 0.0);
@@ -83,11 +87,16 @@ SoftContactTally SoftExchange::add_forces(double dt) {
     for (const Contact* contact : active_) {
         const auto side = [&](Body& body) {
             const std::span<const double> inverse_mass = body.moves() ? body.inverse_mass_ : held_;
-            return SoftSide{body.state_.position, body.state_.velocity, inverse_mass, body.force_};
+            return SoftSide{body.state_.position,
+                            body.state_.velocity,
+                            inverse_mass,
+                            {body.force_, body.moves() ? &body.contacts_ : nullptr}};
         };
         const auto& [a, b] = contact->pair;
         const SoftContactTally tally = contact->law->add_force(side(*a), side(*b), dt, substep_);
         a->bearing_points_ += tally.bearing;
+        a->meets_movable_ |= tally.bearing != 0;
+        b->meets_movable_ |= tally.bearing != 0;
         if (b != a)
             b->bearing_points_ += tally.bearing;
         sum.looks += tally.looks;

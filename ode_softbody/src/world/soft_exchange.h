@@ -22,7 +22,8 @@ class SoftExchange {
 public:
     /// Takes up the pairs that the bodies' geoms have met, and bodies with self contact. One that
     /// stands still after an instability is an obstacle.
-    void begin_step(std::span<const std::unique_ptr<Body>> bodies);
+    /// @param again  the step is redone: contacts forget what has happened since its start.
+    void begin_step(std::span<const std::unique_ptr<Body>> bodies, bool again);
 
     /// Adds contact forces to the bodies' forces.
     SoftContactTally add_forces(double dt);

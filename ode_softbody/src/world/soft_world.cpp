@@ -18,13 +18,10 @@ double seconds_since(Clock::time_point start) noexcept {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Substeps between looks at whether a body is still finite: an explicit instability multiplies its
-// amplitude by more than 1 a substep, so a blow-up from rounding takes hundreds, and a look costs
-// about a tenth of a force.
+// Substeps between looks at the bodies' energy, each of which costs about a tenth of a force. A
+// body whose elastic energy alone exceeds what is due is looked at at once: see
+// Body::begin_substep().
 constexpr int kWatchInterval = 10;
-
-// Principal stretch beyond which no explicit step chosen at rest is stable for any material here.
-constexpr double kStretchLimit = 10;
 
 // A step with more substeps takes minutes at best: it was meant otherwise.
 constexpr double kMostSubsteps = 1e7;
@@ -103,8 +100,8 @@ bool SoftWorld::begin_step(double h) noexcept {
     const bool timed = !none_moves(body_) || !observer_.empty();
     const auto start = timed ? Clock::now() : Clock::time_point();
     meet(h);
-    while (!advance(h)) {
-    }
+    for (bool again = false; !advance(h, again);)
+        again = true;
     time_ += h;
     ++stats_.steps;
     if (timed)
@@ -169,20 +166,23 @@ double SoftWorld::common_substep(double h) const noexcept {
     for (const auto& body : body_)
         if (body->moves())
             least = std::min(least, body->safe_substep());
-    return h / std::ceil(h / least);
+    constexpr double kRounding = 1e-12; // of a step that is a multiple
+    return h / std::ceil(h / least * (1 - kRounding));
 }
 
-bool SoftWorld::advance(double h) noexcept {
+bool SoftWorld::advance(double h, bool again) noexcept {
     if (none_moves(body_))
         return true;
     const double first = common_substep(h);
     attachments_.announce(exchange_);
     exchange_.begin_step(world_, body_, h, first);
     attachments_.begin_step(exchange_, h, first);
-    soft_exchange_.begin_step(body_);
+    soft_exchange_.begin_step(body_, again);
+    dVector3 g;
+    dWorldGetGravity(world_, g);
     for (const auto& body : body_)
         if (body->moves())
-            body->begin_step();
+            body->begin_step({g[0], g[1], g[2]});
     double done = 0;
     while (done < h) {
         const double dt = common_substep(h - done);
@@ -196,26 +196,20 @@ bool SoftWorld::advance(double h) noexcept {
         done = taken == substeps ? h : done + static_cast<double>(taken) * dt;
     }
     for (const auto& body : body_)
-        if (!body->asleep())
+        if (body->moves())
             body->end_step();
     return true;
 }
 
 long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
-    dVector3 g;
-    dWorldGetGravity(world_, g);
-    const Vec3 gravity(g[0], g[1], g[2]);
     const bool observed = std::any_of(observer_.begin(), observer_.end(),
                                       [](const auto& o) { return o && o->wants_substeps(); });
-    for (const auto& body : body_)
-        if (body->moves())
-            body->take_load(gravity);
     long looked = 0;
     for (long i = 1; i <= substeps; ++i) {
-        const bool look = i % kWatchInterval == 0 || i == substeps;
+        const bool look = i % kWatchInterval == 0 || i == 1 || i == substeps;
         for (const auto& body : body_)
             if (body->moves())
-                body->begin_substep();
+                body->begin_substep(look);
         const ContactTally tally = exchange_.add_forces(dt);
         stats_.contact_tests += tally.tests;
         stats_.contact_points += tally.bearing;
@@ -238,7 +232,7 @@ long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
         ++stats_.substeps;
         if (look)
             looked = i;
-        if (look && !all_sound())
+        if (!all_sound())
             return 0;
         if (observed)
             show_substep(start + static_cast<double>(i) * dt, dt);
@@ -250,28 +244,47 @@ long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
 }
 
 bool SoftWorld::all_sound() noexcept {
-    const auto failed = std::find_if(body_.begin(), body_.end(), [](const auto& body) {
-        return body->moves() &&
-               !(body->extremes().max_stretch < kStretchLimit && body->is_finite());
-    });
-    if (failed == body_.end())
+    const auto is_unsound = [](const auto& body) {
+        return body->moves() && body->was_looked_at() && !body->is_sound();
+    };
+    if (std::none_of(body_.begin(), body_.end(), is_unsound))
         return true;
+    for (std::size_t i = 0; i < body_.size(); ++i) {
+        Body& body = *body_[i];
+        if (!is_unsound(body_[i]))
+            continue;
+        const std::string trouble = body.trouble();
+        if (body.take_care()) {
+            // A body that needs care again and again is told of ever more rarely.
+            if ((body.rollbacks() & (body.rollbacks() - 1)) == 0)
+                report(format("soft body %zu goes unstable in the step from t = %g s: %s; the step "
+                              "is redone at %g s",
+                              i, time_, trouble.c_str(), body.safe_substep()));
+            continue;
+        }
+        report(format("soft body %zu went unstable in the step from t = %g s: %s; it is stopped. "
+                      "Give it a smaller substep, a stiffer material or a gentler blow",
+                      i, time_, trouble.c_str()));
+    }
     for (const auto& body : body_)
         if (body->moves())
             body->roll_back();
-    // Once more with the substep that the stretch reached asks for; then no more.
-    Body& body = **failed;
-    if (++body.failures_ > 1) {
-        body.stop();
-        report(
-            format("soft body %td went unstable at t = %g s (substep %g s, redone at %g s) and is "
-                   "stopped; give it a smaller substep, a stiffer material or a gentler blow",
-                   failed - body_.begin(), time_, body.substep(), body.safe_substep()));
-    }
+    for (const auto& body : body_)
+        if (body->is_given_up() && !body->stopped())
+            body->stop();
+    not_shown_until_ = std::max(not_shown_until_, shown_);
     return false;
 }
 
 void SoftWorld::show_substep(double time, double dt) noexcept {
+    // A step that is redone shows what has not been shown yet: observers can't take back.
+    if (not_shown_until_ > time_) {
+        if (time <= not_shown_until_ + dt / 2)
+            return;
+        dt = time - not_shown_until_;
+        not_shown_until_ = 0;
+    }
+    shown_ = time;
     const auto start = Clock::now();
     for (const auto& body : body_) {
         if (!body->moves())

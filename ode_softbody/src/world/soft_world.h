@@ -116,11 +116,15 @@ private:
     /// The substep that suits all bodies that move, dividing h [s].
     double common_substep(double h) const noexcept;
     /// Soft bodies, contacts and observers for h seconds. @return false when a body went unstable:
-    /// it is then marked stopped and everything is as it was before the call.
-    bool advance(double h) noexcept;
+    /// its substep is then shortened, or it is stopped, and everything is as it was before the call
+    /// but for what observers have seen. The rigid bodies' side is made anew from ODE's bodies,
+    /// which nothing has reached yet, so that no impulse is given twice.
+    /// @param again  such a step is redone.
+    bool advance(double h, bool again) noexcept;
     /// From `start` [s]. @return substeps taken: fewer when a body needs shorter ones from now on,
     /// none when one went unstable.
     long run_substeps(double start, double dt, long substeps) noexcept;
+    /// Looks at the bodies; if one is unstable takes all of them back to the start of the step.
     bool all_sound() noexcept;
     /// Observers may be added and removed by one of them meanwhile.
     template <class Call>
@@ -141,6 +145,8 @@ private:
     dSpaceID space_;
     double time_ = 0;
     double last_step_ = 0;
+    double shown_ = 0;           ///< time of the last substep shown to observers [s]
+    double not_shown_until_ = 0; ///< while a step is redone: what has been shown already [s]
     bool stepping_ = false;
     bool meeting_ = false; ///< within meet(): pairs are for the step to come
     OtherSpaces other_spaces_;

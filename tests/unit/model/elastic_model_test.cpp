@@ -312,6 +312,60 @@ TEST_P(ElasticModelTest, ExtremesOfAUniformStretchAreExact) {
     EXPECT_NEAR(s_.model->add_force(x, still_, force).min_jacobian, -1, 1e-12);
 }
 
+// Of the worst element at its worst point, found one by one. The stretch is a bound: never below,
+// and within the lateral stretches' spread, here a fifth.
+TEST_P(ElasticModelTest, ExtremesAreThoseOfTheWorstElement) {
+    for (const double amplitude : {0.004, 0.02}) {
+        const NodeArray x = disturbed(s_.rest, amplitude, 5);
+        double least = 1e300, most = 0;
+        const auto include = [&](const auto& packs) {
+            for (const TetBlock& block : packs.blocks())
+                for (std::size_t e = 0; e < block.elements; ++e) {
+                    const auto element = packs.element(block, e);
+                    for (int q = 0; q < element.kPoints; ++q) {
+                        const Mat3 f = deformation_gradient(element, q, x);
+                        least = std::min(least, f.determinant());
+                        most = std::max(most, f.jacobiSvd().singularValues()[0]);
+                    }
+                }
+        };
+        if (s_.mesh.order == 1)
+            include(Tet4Packs(s_.mesh, std::span(&solid_, 1)));
+        else
+            include(Tet10Packs(s_.mesh, std::span(&solid_, 1)));
+        NodeArray force(x.size());
+        const StrainExtremes found = s_.model->add_force(x, still_, force);
+        EXPECT_NEAR(found.min_jacobian, least, 1e-12);
+        EXPECT_GE(found.max_stretch, most * (1 - 1e-12));
+        EXPECT_LE(found.max_stretch, most * 1.2);
+    }
+}
+
+// The by-product is the energy itself, at any strain; the neo-Hookean logarithm's series is good to
+// 1 % where it is not exact.
+TEST_P(ElasticModelTest, EnergyComesWithTheForce) {
+    const auto found_at = [&](const NodeArray& x) {
+        NodeArray force(x.size());
+        return s_.model->add_force(x, still_, force).energy;
+    };
+    const double scale = solid_.young * s_.volume;
+    EXPECT_NEAR(found_at(s_.rest), 0, 1e-26 * scale);
+    const bool series = std::string(GetParam().name).find("Neo") != std::string::npos;
+    for (const double amplitude : {1e-6, 0.001, 0.008, 0.05}) {
+        const NodeArray x = disturbed(s_.rest, amplitude, 3);
+        const double exact = s_.model->energy(x);
+        EXPECT_NEAR(found_at(x), exact,
+                    (series ? std::max(1e-2 * std::min(1.0, amplitude / 0.01), 1e-6) : 1e-9) *
+                        exact);
+    }
+    for (const double stretch : {0.1, 0.3, 0.6, 2.0, 5.0}) {
+        NodeArray x = s_.rest;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            x[i][0] *= stretch;
+        EXPECT_NEAR(found_at(x), s_.model->energy(x), (series ? 1e-2 : 1e-9) * s_.model->energy(x));
+    }
+}
+
 TEST_P(ElasticModelTest, ANumberThatIsNoneShows) {
     NodeArray x = s_.rest;
     x[3][1] = std::numeric_limits<double>::quiet_NaN();
