@@ -66,7 +66,7 @@ std::string plot_front(const std::vector<TimeRow>& rows, const std::string& path
            "'Waveform error against run time (circles: linear elements, dots: quadratic)'\n"
            "set logscale xy\nset format x '10^{%T}'\nset format y '10^{%T}'\nset grid\n"
            "set xlabel 'CPU seconds a simulated second'\n"
-           "set key bottom left font ',8'\n";
+           "set key top right font ',8'\n";
     for (const Error error : {&TimeRow::waveform, &TimeRow::steps}) {
         say << "set ylabel "
             << (error == &TimeRow::waveform ? "'relative error of the surface velocity'"
