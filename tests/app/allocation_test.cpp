@@ -92,6 +92,80 @@ TEST(Allocation, StepOfAnAttachedBodyAllocatesNothing) {
     EXPECT_EQ(allocations - before, 0);
 }
 
+/// Of a scene that has come to rest, steps of ODE included.
+long allocations_of(ode::test::OdeApp& app, int warm, int steps, dReal h) {
+    for (int i = 0; i < warm; ++i)
+        app.step(h);
+    const long before = allocations;
+    for (int i = 0; i < steps; ++i)
+        app.step(h);
+    return allocations - before;
+}
+
+dSoftBodyID add_block(const WorldHandle& soft, dReal x, dReal z, dReal side) {
+    dSoftSolid solid = dSoftSolidDefault();
+    solid.young = 1e6;
+    solid.density = 1000;
+    solid.beta = 1e-3;
+    const MeshHandle mesh(dSoftMeshCreateBox(side, side, side, 3, 3, 3));
+    const dSoftBodyID body = dSoftBodyCreate(soft, mesh, &solid);
+    dSoftBodySetPosition(body, x, 0, z);
+    return body;
+}
+
+dBodyID add_box(ode::test::OdeApp& app, dReal mass, dReal x, dReal z) {
+    const dBodyID body = dBodyCreate(app.world);
+    dMass m;
+    dMassSetBoxTotal(&m, mass, 0.04, 0.04, 0.04);
+    dBodySetMass(body, &m);
+    dBodySetPosition(body, x, 0, z);
+    dGeomSetBody(dCreateBox(app.space, 0.04, 0.04, 0.04), body);
+    return body;
+}
+
+unsigned long long contact_points(const WorldHandle& soft) {
+    dSoftWorldStats stats{};
+    stats.struct_size = sizeof stats;
+    dSoftWorldGetStats(soft, &stats);
+    return stats.contact_points;
+}
+
+TEST(Allocation, StepOfSoftBodiesThatMeetAllocatesNothing) {
+    ode::test::OdeApp app(-9.81);
+    const WorldHandle soft(dSoftWorldCreate(app.world, app.space));
+    dCreatePlane(app.space, 0, 0, 1, 0);
+    add_block(soft, 0, 0.05, 0.1);
+    add_block(soft, 0.01, 0.135, 0.07);
+    EXPECT_EQ(allocations_of(app, 100, 50, 0.004), 0);
+    EXPECT_GT(contact_points(soft), 0u);
+}
+
+TEST(Allocation, StepUnderAPileAllocatesNothing) {
+    ode::test::OdeApp app(-9.81);
+    const WorldHandle soft(dSoftWorldCreate(app.world, app.space));
+    dCreatePlane(app.space, 0, 0, 1, 0);
+    add_block(soft, 0, 0.05, 0.1);
+    add_box(app, 0.1, 0.002, 0.1205);
+    add_box(app, 0.05, 0.002, 0.161);
+    EXPECT_EQ(allocations_of(app, 150, 50, 0.004), 0);
+    EXPECT_GT(contact_points(soft), 0u);
+}
+
+TEST(Allocation, StepUnderJointedBodiesAllocatesNothing) {
+    ode::test::OdeApp app(-9.81);
+    const WorldHandle soft(dSoftWorldCreate(app.world, app.space));
+    dCreatePlane(app.space, 0, 0, 1, 0);
+    add_block(soft, 0, 0.05, 0.1);
+    const dBodyID left = add_box(app, 0.1, -0.025, 0.1205);
+    const dBodyID right = add_box(app, 0.1, 0.025, 0.1205);
+    const dJointID hinge = dJointCreateHinge(app.world, nullptr);
+    dJointAttach(hinge, left, right);
+    dJointSetHingeAnchor(hinge, 0, 0, 0.1205);
+    dJointSetHingeAxis(hinge, 0, 1, 0);
+    EXPECT_EQ(allocations_of(app, 150, 50, 0.004), 0);
+    EXPECT_GT(contact_points(soft), 0u);
+}
+
 int (*ode_step)(dWorldID, dReal);
 void (*ode_collide)(dSpaceID, void*, dNearCallback*);
 
