@@ -119,8 +119,9 @@ private:
     /// Whether a candidate is in, or may be within the substep; keeps its memory of both.
     /// @param gap  out.
     template <class Distance>
-    bool may_touch(Distance distance_of, std::size_t node, const Vec3& local, const Vec3& slip,
-                   const Mat3& rotation, double dt, SurfaceDistance& gap) noexcept;
+    [[gnu::always_inline]] bool may_touch(Distance distance_of, std::size_t node, const Vec3& local,
+                                          const Vec3& slip, const Mat3& rotation, double dt,
+                                          SurfaceDistance& gap) noexcept;
     /// Fills touch_. @return what friction asks of the rigid body's stability.
     double find_touching(const NodeArray& position, const NodeArray& velocity,
                          const RigidShadow& rigid, double dt) noexcept;

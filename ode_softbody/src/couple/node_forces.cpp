@@ -10,7 +10,7 @@ std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 } // namespace
 
 template <class Distance>
-bool NodeContact::may_touch(Distance distance_of, std::size_t i, const Vec3& local,
+inline bool NodeContact::may_touch(Distance distance_of, std::size_t i, const Vec3& local,
                             const Vec3& slip, const Mat3& rotation, double dt,
                             SurfaceDistance& gap) noexcept {
     gap = distance_of(shape_, local);
@@ -91,7 +91,7 @@ double NodeContact::find_touching_planes(const NodeArray& position, const NodeAr
 
 void NodeContact::touch(Touch touch, const RigidShadow& rigid, double dt) noexcept {
     const std::size_t i = index(touch.node);
-    if (rigid.can_move())
+    if (rigid.needs_books(dt))
         touch.owed = book_[i].open({.stiffness = stiffness_[i],
                                     .damping = 0,
                                     .compliance = 0,

@@ -241,7 +241,7 @@ double PoleContact::find_touching(const NodeArray& position, const NodeArray& ve
         pole.touch.damping = std::fmin(state.stiffness * law_.damping, kDampingShare * light / dt_);
         if (law_.friction > 0)
             load += grip_load(pole.touch, state, dt, rigid);
-        if (rigid.can_move())
+        if (rigid.needs_books(dt))
             open_book(pole.touch, state, dt);
         pole.force = std::fmin(state.point.force(pole.touch.depth), state.point.end_force());
     }

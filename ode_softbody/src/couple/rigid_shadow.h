@@ -1,5 +1,6 @@
 #pragma once
 
+#include "couple/contact_law.h"
 #include "couple/free_motion.h"
 #include "couple/mirror_world.h"
 
@@ -74,6 +75,9 @@ public:
     /// Velocity and spin after the kick to come, as far as they are known by now.
     Vec6 twist_ahead(double dt) const noexcept;
     bool can_move() const noexcept { return inverse_mass_ != 0; }
+    bool needs_books(double dt) const noexcept {
+        return can_move() && EnergyBook::is_needed(motion_.spin, dt);
+    }
 
     /// Announces friction of this substep before it acts. @param load  how much it asks of explicit
     /// stability: sum of (k dt^2 + 2 c dt) grip_compliance().

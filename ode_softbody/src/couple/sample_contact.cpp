@@ -172,7 +172,7 @@ double SampleContact::find_touching(const NodeArray& position, const NodeArray& 
         touch.damping = std::fmin(state.stiffness * law_.damping, kDampingShare * light / dt_);
         if (law_.friction > 0)
             load += grip_load(touch, state, dt, rigid);
-        if (rigid.can_move())
+        if (rigid.needs_books(dt))
             open_book(touch, state, dt);
         touch_.push_back(touch);
     }
