@@ -11,7 +11,7 @@ namespace ode::soft {
 /// exponential of the midpoint spin.
 class FreeMotion {
 public:
-    FreeMotion() = default;               ///< can't be moved
+    FreeMotion() = default;                     ///< can't be moved
     explicit FreeMotion(dBodyID body) noexcept; ///< as it is now
 
     const Pose& pose() const noexcept { return pose_; }

@@ -11,8 +11,8 @@ std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
 template <class Distance>
 inline bool NodeContact::may_touch(Distance distance_of, std::size_t i, const Vec3& local,
-                            const Vec3& slip, const Mat3& rotation, double dt,
-                            SurfaceDistance& gap) noexcept {
+                                   const Vec3& slip, const Mat3& rotation, double dt,
+                                   SurfaceDistance& gap) noexcept {
     gap = distance_of(shape_, local);
     if (!recess_.empty())
         gap.distance += recess_[i];

@@ -88,8 +88,7 @@ void sweep_triangle(TriangleTouch& touch, const TouchState& state, const Surface
 void enter_book(const TriangleTouch& touch, TouchState& state, const SurfaceNodes& surface,
                 const TouchForces& on, const RigidResponse& rigid) noexcept {
     const Ahead ahead = look_ahead(touch, surface, on, rigid);
-    state.book.enter(touch.press.spring,
-                     -on.dt * (touch.slip + ahead.slip).dot(state.normal));
+    state.book.enter(touch.press.spring, -on.dt * (touch.slip + ahead.slip).dot(state.normal));
 }
 
 bool drag_triangle(const TriangleTouch& touch, TouchState& state, double friction, double softening,

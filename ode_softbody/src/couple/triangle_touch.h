@@ -27,7 +27,7 @@ struct TouchState {
 struct TriangleTouch {
     int triangle;
     TrianglePoint at;
-    double depth;        ///< [m]
+    double depth;       ///< [m]
     Vec3 slip;          ///< of the rigid against the soft side, half a substep ago [m/s]
     double damping = 0; ///< [N s/m]
     double owed = 0;    ///< see EnergyBook [J]

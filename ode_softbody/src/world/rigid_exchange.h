@@ -85,9 +85,9 @@ private:
     std::vector<Contact> contact_;
     std::vector<Contact> dormant_; ///< of soft bodies at rest, for friction's memory
     std::vector<RigidShadow> shadow_;
-    std::vector<RigidShadow> before_; ///< of the step before
+    std::vector<RigidShadow> before_;     ///< of the step before
     std::vector<RigidResponse> response_; ///< parallel to shadow_
-    bool stepped_ = true;             ///< write_back() has followed begin_step()
+    bool stepped_ = true;                 ///< write_back() has followed begin_step()
     std::vector<dBodyID> lingering_;
     RigidIslands islands_;
     MirrorWorld mirror_;

@@ -221,8 +221,8 @@ double ThrownScene::face_height(const Vec3& p) const {
             return (v.x() - u.x()) * (p.y() - u.y()) - (v.y() - u.y()) * (p.x() - u.x());
         };
         if (side(a, b) >= 0 && side(b, c) >= 0 && side(c, a) >= 0)
-            height = std::fmax(height, a.z() - (n.x() * (p.x() - a.x()) + n.y() * (p.y() - a.y())) /
-                                                   n.z());
+            height = std::fmax(height,
+                               a.z() - (n.x() * (p.x() - a.x()) + n.y() * (p.y() - a.y())) / n.z());
     }
     return height;
 }

@@ -26,7 +26,7 @@ struct Throw {
     Quat turn = Quat::Identity();
     Vec3 spin = Vec3::Zero();
     double friction = 0;
-    double damping = 0;   ///< [s]
+    double damping = 0; ///< [s]
     double seconds = 0.04;
 };
 
