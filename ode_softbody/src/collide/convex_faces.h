@@ -25,4 +25,15 @@ std::vector<Vec3> convex_corners(dGeomID convex);
 /// O(n^4) at worst, once a contact: a millisecond for 30 corners.
 std::vector<TangentPlane> hull_faces(std::span<const Vec3> corners);
 
+/// A trimesh that bounds a convex solid.
+struct ConvexMesh {
+    std::vector<Vec3> corner; ///< in the geom's own frame [m]
+    std::vector<TangentPlane> face;
+};
+
+/// Many trimeshes are closed and convex, and better served as such: their distance is exact, where
+/// planes felt round a node (SurfaceProbe) know no end.
+/// @return nothing where the mesh isn't: open, hollow somewhere, or of more than 64 planes.
+ConvexMesh convex_mesh(dGeomID trimesh);
+
 } // namespace ode::soft

@@ -73,6 +73,9 @@ public:
         if (a <= 0 && b0 <= 0)
             return 0;
         const double before = energy(a);
+        if (g == 0)
+            return std::fabs(b0 - a) < 1e-9 * std::fabs(a) ? force(b0)
+                                                           : (energy(b0) - before) / (b0 - a);
         // F falls as b falls: the root lies between b0 and b0 - g F(max(a, b0)).
         double high = b0;
         double low = b0 - g * force(std::fmax(a, b0));

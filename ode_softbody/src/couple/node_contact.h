@@ -30,9 +30,9 @@ struct ContactTally {
 /// Normal force of node i: a one-sided spring k_i = kappa A_i by its discrete gradient, so that an
 /// impact keeps its energy at any substep, and a dashpot (NormalContact). Depth is that of the
 /// closest surface point, continuous over edges and corners, so the force has a potential and needs
-/// no cap on depth. Friction is explicit: its stability bounds k_i by kStiffnessShare of what the
-/// node's mass bears at this substep, and c_i likewise; a light rigid body lowers both
-/// (RigidShadow::softening).
+/// no cap on depth. All normal forces on a rigid body are found together (RigidResponse). Friction
+/// is explicit: its stability bounds k_i by kStiffnessShare of what the node's mass bears at this
+/// substep, and c_i likewise; a light rigid body lowers friction's (RigidShadow::softening).
 ///
 /// A node that is in stays on the side where it came in: the far side of a thin shape doesn't push
 /// it through.
@@ -56,9 +56,29 @@ public:
     void begin_step(const RigidShape& shape, const ContactLaw& law,
                     std::span<const double> inverse_mass, double dt);
 
-    /// Adds contact forces to `force` [N], which holds everything else that acts on the nodes, and
-    /// their reaction to `rigid`. Looks for nodes near the
-    /// shape anew whenever they may have come within reach since it looked last.
+    /// A substep: finds what touches or may, announces its friction to `rigid`. Looks for nodes
+    /// near the shape anew whenever they may have come within reach since it looked last.
+    /// @return tests done.
+    unsigned long find(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid,
+                       double dt) noexcept;
+    bool is_touching() const noexcept {
+        return (at_once_ && !candidate_.empty()) || !touch_.empty() || samples_.is_touching() ||
+               poles_.is_touching();
+    }
+    /// Where the rigid body can't be moved, nodes share nothing: each gets its force in one go.
+    void push_at_once(const NodeArray& position, const TouchForces& on,
+                      RigidShadow& rigid) noexcept;
+    /// Then normal forces, as often as other forces change: brings each in line with all that acts
+    /// on the nodes and on the rigid body. @param on  with what the last sweep added.
+    void sweep(const TouchForces& on, RigidResponse& rigid) noexcept;
+    /// Friction, once the normal forces are known. @return points that bear.
+    std::size_t drag(const TouchForces& on, RigidShadow& rigid) noexcept;
+
+    /// Last, where the rigid body moves: books what the springs did.
+    void enter_books(const TouchForces& on, const RigidResponse& rigid) noexcept;
+
+    /// All of it, where the rigid body meets nothing else: adds contact forces to `force` [N],
+    /// which holds everything else that acts on the nodes, and their reaction to `rigid`.
     ContactTally add_force(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid,
                            double dt, const NodeForces& force) noexcept;
 
@@ -66,6 +86,7 @@ public:
     void keep();
     void take_back() noexcept;
 
+    bool has_friction() const noexcept { return law_.friction > 0; }
     /// Some node bore force in the last substep.
     bool bearing() const noexcept { return bearing_ != 0; }
     /// What a light body's shadow asked of the contact in the last substep, to be handed to the
@@ -73,41 +94,59 @@ public:
     double softening() const noexcept { return softening_; }
 
 private:
+    static constexpr double kReach = 0.5; ///< of the shape, in mean edges: a node is a candidate
+
     void find_candidates(const NodeArray& position, const NodeArray& velocity,
                          const RigidMotion& motion) noexcept;
     /// The same for probed shapes: planes_ run parallel to candidate_.
     void probe_candidates(const NodeArray& position, const NodeArray& velocity,
                           const RigidMotion& motion) noexcept;
 
+    /// With what ODE has to be asked for: of a convex geom, and of a trimesh that is convex.
+    RigidShape known_shape(const RigidShape& shape);
     void prepare_points();
 
     void schedule_look(double nearest, double fastest) noexcept;
 
     /// A node inside the shape.
     struct Touch {
-        int node;    ///< of the surface
-        Vec3 local;  ///< where it is in the shape's frame [m]
-        Vec3 across; ///< outward normal in the shape's frame
-        Vec3 normal; ///< the same in the world's
-        double depth;
+        int node;         ///< of the surface
+        Vec3 local;       ///< where it is in the shape's frame [m]
+        Vec3 across;      ///< outward normal in the shape's frame
+        Vec3 normal;      ///< the same in the world's
+        double depth;     ///< [m]
+        Vec3 at;          ///< world [m]
+        Vec3 slip;        ///< of the node against the shape, half a substep ago [m/s]
+        double owed = 0;  ///< see EnergyBook [J]
+        Press press = {}; ///< so far
     };
 
-    /// Fills touch_. @return what the contacts ask of the rigid body's stability.
+    /// Whether a candidate is in, or may be within the substep; keeps its memory of both.
+    /// @param gap  out.
     template <class Distance>
-    double find_touching(Distance distance_of, const NodeArray& position, const NodeArray& velocity,
+    [[gnu::always_inline]] bool may_touch(Distance distance_of, std::size_t node, const Vec3& local,
+                                          const Vec3& slip, const Mat3& rotation, double dt,
+                                          SurfaceDistance& gap) noexcept;
+    /// Fills touch_. @return what friction asks of the rigid body's stability.
+    double find_touching(const NodeArray& position, const NodeArray& velocity,
                          const RigidShadow& rigid, double dt) noexcept;
     double find_touching_planes(const NodeArray& position, const NodeArray& velocity,
                                 const RigidShadow& rigid, double dt) noexcept;
-    void push(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid, double dt,
-              const NodeForces& force) noexcept;
+    void touch(Touch touch, const RigidShadow& rigid, double dt) noexcept;
+    double grip_load(std::size_t node, const Vec3& x, const Vec3& normal, double dt,
+                     const RigidShadow& rigid) const noexcept;
+    /// Friction of a node that bears. @param across  the normal in the shape's frame.
+    Vec3 grip_of(std::size_t node, const Vec3& local, const Vec3& across, const Vec3& slip,
+                 const Vec3& normal, double press, const Mat3& rotation) noexcept;
 
     const SurfaceNodes& nodes_;
     dGeomID geom_;
     RigidShape shape_;
-    std::vector<Vec3> corners_;       ///< of a convex
-    std::vector<TangentPlane> faces_; ///< of a convex
+    std::vector<Vec3> corners_;       ///< of what is convex
+    std::vector<TangentPlane> faces_; ///< the same's
     ContactLaw law_;
     bool is_prepared_ = false;
+    bool at_once_ = false; ///< nodes touch in push_at_once() alone
     // Per surface node:
     std::vector<double> stiffness_; ///< [N/m]
     std::vector<double> damping_;   ///< [N s/m]
@@ -116,8 +155,10 @@ private:
     std::vector<std::uint8_t> anchored_; ///< whether there is one
     std::vector<Vec3> entered_;          ///< outward normal where it is in, in the shape's frame
     std::vector<Overlap> overlap_;
+    std::vector<EnergyBook> book_;
     std::vector<int> candidate_; ///< surface nodes near the shape
     std::vector<Touch> touch_;   ///< of the last substep
+    RigidResponse response_;     ///< of add_force()
     SampleContact samples_;
     PoleContact poles_;
     struct Planes {
@@ -134,6 +175,7 @@ private:
         std::vector<Vec3> anchor, entered;
         std::vector<std::uint8_t> anchored;
         std::vector<Overlap> overlap;
+        std::vector<EnergyBook> book;
         std::size_t bearing = 0;
         double softening = 1;
     } kept_; ///< of the start of the step

@@ -217,13 +217,17 @@ double PoleContact::find_touching(const NodeArray& position, const NodeArray& ve
         tests += surface_.fan(pole.node).size();
         const Vec3 inward = shape_->distance(shape.to_local(pole.touch.at.point)).normal;
         state.normal = -(shape.rotation * inward);
-        const Vec3 slip = slip_at(pole.touch, surface_, velocity, rigid.motion());
+        pole.touch.press = {};
+        pole.touch.slip = slip_at(pole.touch, surface_, velocity, rigid.motion());
+        const Vec3& slip = pole.touch.slip;
         pole.touch.depth -= state.overlap.hidden(pole.touch.depth, -slip.dot(state.normal), dt);
         pole.touches = pole.touch.depth > -kForesight * dt * slip.norm();
         if (pole.touch.depth <= 0)
             state.bears = false;
-        if (!pole.touches)
+        if (!pole.touches) {
+            state.book.close();
             continue;
+        }
         touching_ = true;
         const double light = share_ * surface_.lightest[index(pole.touch.triangle)];
         if (!state.bears) {
@@ -234,25 +238,35 @@ double PoleContact::find_touching(const NodeArray& position, const NodeArray& ve
         state.is_point = true;
         state.point = point_spring(surface_, pole.touch.triangle, pole.touch.at.weight, 0,
                                    law_.rigid_compliance);
-        pole.damping = std::fmin(state.stiffness * law_.damping, kDampingShare * light / dt_);
-        load += load_of(pole.touch, state, pole.damping, dt, rigid);
+        pole.touch.damping = std::fmin(state.stiffness * law_.damping, kDampingShare * light / dt_);
+        if (law_.friction > 0)
+            load += grip_load(pole.touch, state, dt, rigid);
+        if (rigid.needs_books(dt))
+            open_book(pole.touch, state, dt);
+        pole.force = std::fmin(state.point.force(pole.touch.depth), state.point.end_force());
     }
     return load;
 }
 
-std::size_t PoleContact::push(const NodeArray& velocity, std::span<const double> inverse_mass,
-                              double softening, double dt, RigidShadow& rigid,
-                              const NodeForces& force) noexcept {
+void PoleContact::sweep(const TouchForces& on, RigidResponse& rigid) noexcept {
+    for (std::size_t p = 0; p < pole_count_; ++p)
+        if (pole_[p].touches)
+            sweep_triangle(pole_[p].touch, pole_[p].state, surface_, on, rigid);
+}
+
+void PoleContact::enter_books(const TouchForces& on, const RigidResponse& rigid) noexcept {
+    for (std::size_t p = 0; p < pole_count_; ++p)
+        if (pole_[p].touches)
+            enter_book(pole_[p].touch, pole_[p].state, surface_, on, rigid);
+}
+
+std::size_t PoleContact::drag(double softening, const TouchForces& on,
+                              RigidShadow& rigid) noexcept {
     std::size_t bearing = 0;
-    for (std::size_t p = 0; p < pole_count_; ++p) {
-        Pole& pole = pole_[p];
-        if (!pole.touches)
-            continue;
-        const HertzSpring& point = pole.state.point;
-        pole.force = std::fmin(point.force(pole.touch.depth), point.end_force());
-        bearing += push_triangle(pole.touch, pole.state, law_, pole.damping, softening, surface_,
-                                 velocity, inverse_mass, dt, rigid, force);
-    }
+    for (std::size_t p = 0; p < pole_count_; ++p)
+        if (pole_[p].touches)
+            bearing += drag_triangle(pole_[p].touch, pole_[p].state, law_.friction, softening,
+                                     surface_, on, rigid);
     return bearing;
 }
 

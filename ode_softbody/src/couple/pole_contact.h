@@ -47,9 +47,9 @@ public:
     double find_touching(const NodeArray& position, const NodeArray& velocity,
                          const RigidShadow& rigid, double dt, unsigned long& tests) noexcept;
     bool is_touching() const noexcept { return touching_; }
-    std::size_t push(const NodeArray& velocity, std::span<const double> inverse_mass,
-                     double softening, double dt, RigidShadow& rigid,
-                     const NodeForces& force) noexcept;
+    void sweep(const TouchForces& on, RigidResponse& rigid) noexcept;
+    void enter_books(const TouchForces& on, const RigidResponse& rigid) noexcept;
+    std::size_t drag(double softening, const TouchForces& on, RigidShadow& rigid) noexcept;
 
 private:
     struct Pole {
@@ -57,9 +57,8 @@ private:
         bool touches = false;
         TriangleTouch touch;
         TouchState state;
-        double damping = 0; ///< [N s/m]
-        double force = 0;   ///< lately [N]
-        bool held = false;  ///< where it is on the surface
+        double force = 0;  ///< lately [N]
+        bool held = false; ///< where it is on the surface
     };
 
     double depth_of(const NodeArray& position, const Pose& shape, int node) const noexcept;

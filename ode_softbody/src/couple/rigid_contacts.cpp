@@ -142,42 +142,77 @@ void RigidContacts::meet(const dContact& contact, std::size_t first, std::size_t
     *old = p;
 }
 
-std::size_t RigidContacts::add_forces(std::span<RigidShadow> shadow, double dt) noexcept {
-    std::size_t bearing = 0;
+void RigidContacts::begin_substep(std::span<RigidShadow> shadow, double dt) noexcept {
     const double fade = std::exp(-kFading * dt);
     for (Point& p : point_) {
-        RigidShadow& a = shadow[p.shadow[0]];
-        RigidShadow& b = shadow[p.shadow[1]];
+        const RigidShadow& a = shadow[p.shadow[0]];
+        const RigidShadow& b = shadow[p.shadow[1]];
+        p.press = 0;
+        p.compliance = 0;
         if (!a.moves() && !b.moves())
             continue;
-        const Vec3 place = place_of(p, shadow);
-        const Vec3 slip = a.motion().velocity_at(place) - b.motion().velocity_at(place);
-        const double parting = slip.dot(p.normal);
-        const Vec3 ahead = a.velocity_ahead(place, dt) - b.velocity_ahead(place, dt);
+        p.place = place_of(p, shadow);
+        p.slip = a.motion().velocity_at(p.place) - b.motion().velocity_at(p.place);
         p.offset *= fade;
-        const double compliance = a.compliance(place, p.normal) + b.compliance(place, p.normal);
-        const double press = NormalContact{.stiffness = p.stiffness,
-                                           .damping = p.damping,
-                                           .compliance = compliance,
-                                           .depth = depth_of(p, shadow) - p.offset,
-                                           .speed = -parting,
-                                           .ahead = -ahead.dot(p.normal)}
-                                 .press(dt);
-        if (press == 0) {
+        p.depth = depth_of(p, shadow) - p.offset;
+        p.compliance = a.compliance(p.place, p.normal) + b.compliance(p.place, p.normal);
+    }
+}
+
+double RigidContacts::sweep(std::span<RigidShadow> shadow, double dt) noexcept {
+    double change = 0;
+    double sum = 0;
+    for (Point& p : point_) {
+        if (p.compliance == 0)
+            continue;
+        RigidShadow& a = shadow[p.shadow[0]];
+        RigidShadow& b = shadow[p.shadow[1]];
+        const Vec3 ahead = a.velocity_ahead(p.place, dt) - b.velocity_ahead(p.place, dt);
+        const double press =
+            NormalContact{.stiffness = p.stiffness,
+                          .damping = p.damping,
+                          .compliance = p.compliance,
+                          .depth = p.depth,
+                          .speed = -p.slip.dot(p.normal),
+                          .ahead = -ahead.dot(p.normal) + dt * p.compliance * p.press}
+                .press(dt)
+                .force;
+        const double more = press - p.press;
+        p.press = press;
+        sum += press;
+        if (more == 0)
+            continue;
+        change += std::fabs(more);
+        apply(p, more * p.normal, shadow);
+    }
+    return sum > 0 ? change / sum : 0;
+}
+
+void RigidContacts::apply(const Point& p, const Vec3& f, std::span<RigidShadow> shadow) noexcept {
+    RigidShadow& a = shadow[p.shadow[0]];
+    RigidShadow& b = shadow[p.shadow[1]];
+    a.add_from_rigid({f, (p.place - a.motion().pose.position).cross(f)});
+    b.add_from_rigid({-f, -(p.place - b.motion().pose.position).cross(f)});
+}
+
+std::size_t RigidContacts::drag(std::span<RigidShadow> shadow, double dt) noexcept {
+    std::size_t bearing = 0;
+    for (Point& p : point_) {
+        if (p.compliance == 0)
+            continue;
+        if (p.press == 0) {
             p.stretch.setZero();
             continue;
         }
         ++bearing;
-        const double grip = p.coulomb ? p.friction * press : p.friction;
+        const double grip = p.coulomb ? p.friction * p.press : p.friction;
         const double k = kTangential * p.stiffness;
-        const Vec3 across = slip - parting * p.normal - p.drive;
+        const Vec3 across = p.slip - p.slip.dot(p.normal) * p.normal - p.drive;
         p.stretch += dt * across;
         clamp_length(p.stretch, grip / k);
-        Vec3 f = -k * p.stretch - 2 * kTangentialDamping * std::sqrt(k / compliance) * across;
+        Vec3 f = -k * p.stretch - 2 * kTangentialDamping * std::sqrt(k / p.compliance) * across;
         clamp_length(f, grip);
-        f += press * p.normal;
-        a.add_from_rigid({f, (place - a.motion().pose.position).cross(f)});
-        b.add_from_rigid({-f, -(place - b.motion().pose.position).cross(f)});
+        apply(p, f, shadow);
     }
     return bearing;
 }

@@ -47,8 +47,13 @@ public:
         });
     }
 
-    /// Adds the forces to the shadows. @return how many bore one.
-    std::size_t add_forces(std::span<RigidShadow> shadow, double dt) noexcept;
+    /// A substep, to be followed by sweeps over the normal forces and by friction.
+    void begin_substep(std::span<RigidShadow> shadow, double dt) noexcept;
+    /// Brings each normal force in line with all else that acts on the shadows by now.
+    /// @return the sum of changes, of the sum of forces.
+    double sweep(std::span<RigidShadow> shadow, double dt) noexcept;
+    /// @return how many bear.
+    std::size_t drag(std::span<RigidShadow> shadow, double dt) noexcept;
 
     std::size_t size() const noexcept { return point_.size(); }
 
@@ -67,11 +72,18 @@ private:
         bool coulomb;
         Vec3 drive; ///< surface velocity of the first against the second [m/s]
         bool seen;
+        // Of the substep:
+        Vec3 place;        ///< world [m]
+        Vec3 slip;         ///< of the first against the second, half a substep ago [m/s]
+        double depth;      ///< [m]
+        double compliance; ///< [1/kg]
+        double press = 0;  ///< so far [N]
     };
 
     static double depth_of(const Point& point, std::span<const RigidShadow> shadow) noexcept;
     static bool is_grazing(const Point& point, std::span<const RigidShadow> shadow) noexcept;
     static Vec3 place_of(const Point& point, std::span<const RigidShadow> shadow) noexcept;
+    static void apply(const Point& point, const Vec3& f, std::span<RigidShadow> shadow) noexcept;
     Point* find(const Point& fresh, std::span<const RigidShadow> shadow) noexcept;
 
     std::vector<Point> point_, kept_;

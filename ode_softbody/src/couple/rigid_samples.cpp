@@ -35,6 +35,21 @@ void add_box(const Vec3& half, double spacing, std::vector<RigidSample>& out) {
         }
 }
 
+/// Edges lie in two faces.
+void add_edges(std::span<const Vec3> corner, std::span<const TangentPlane> face, double spacing,
+               std::vector<RigidSample>& out) {
+    for (std::size_t i = 0; i < corner.size(); ++i)
+        for (std::size_t k = i + 1; k < corner.size(); ++k) {
+            const double length = (corner[k] - corner[i]).norm();
+            const auto holds_both = [&](const TangentPlane& f) {
+                return std::fabs(f.normal.dot(corner[i]) - f.offset) < 1e-5 * length &&
+                       std::fabs(f.normal.dot(corner[k]) - f.offset) < 1e-5 * length;
+            };
+            if (std::count_if(face.begin(), face.end(), holds_both) > 1)
+                add_line(corner[i], corner[k], spacing, out);
+        }
+}
+
 void add_rims(double radius, double half_length, double spacing, std::vector<RigidSample>& out) {
     const int n = std::max(12, intervals(2 * M_PI * radius, spacing));
     for (const double z : {-half_length, half_length})
@@ -70,6 +85,7 @@ std::vector<RigidSample> sample_shape(const RigidShape& shape, double spacing) {
     case ShapeKind::convex:
         for (const Vec3& corner : shape.corners)
             out.push_back({corner, 0});
+        add_edges(shape.corners, shape.faces, spacing, out);
         break;
     case ShapeKind::plane:
     case ShapeKind::probed:

@@ -13,7 +13,7 @@ struct RigidSample {
 };
 
 /// Balls by which a shape feels the soft surface between its nodes: the sphere itself, balls along
-/// a capsule, points on a box's corners and edges, on a cylinder's rims and on a convex's corners.
+/// a capsule, points on corners and edges of boxes and convex shapes, and on a cylinder's rims.
 /// A plane needs none: nothing of it passes between nodes that all lie above.
 /// @param spacing  wanted distance of points [m]; large shapes get larger ones.
 std::vector<RigidSample> sample_shape(const RigidShape& shape, double spacing);

@@ -7,7 +7,8 @@ namespace {
 
 // Explicit leapfrog with lagged damping is stable while dt^2 lambda + 2 dt c/m <= 4. A soft body at
 // 0.9 of its critical step uses 3.24, its own side of the contacts 0.1 * 3.24 + 2 * 0.075 (see
-// node_contact.cpp): 0.28 is left for the rigid side.
+// contact_law.h): 0.28 is left for friction on the rigid side. Normal springs need no share: their
+// force is found together with the motion that it makes (RigidResponse).
 constexpr double kRigidBudget = 0.28;
 
 // A sleeping body wakes when what presses on it differs by more than this from what did when it
@@ -16,57 +17,33 @@ constexpr double kRouse = 0.2;
 
 Vec3 vec(const dReal* v) noexcept { return {v[0], v[1], v[2]}; }
 
-/// Turns by `rotation` [rad] about its direction, in the world's frame.
-Quat turned(const Quat& from, const Vec3& rotation) noexcept {
-    const double half = rotation.norm() / 2;
-    // sin(half)/half to second order is exact in double below 1e-4
-    const double sinc = half > 1e-4 ? std::sin(half) / half : 1 - half * half / 6;
-    const Vec3 axis = sinc / 2 * rotation;
-    return Quat(std::cos(half), axis.x(), axis.y(), axis.z()) * from;
-}
-
 } // namespace
 
 RigidShadow::RigidShadow(dBodyID body, double h, double dt) noexcept
     : body_(body), h_(h), last_dt_(dt) {
     if (!body)
         return;
-    const dReal* q = dBodyGetQuaternion(body);
-    orientation_ = Quat(q[0], q[1], q[2], q[3]);
-    motion_.pose.position = vec(dBodyGetPosition(body));
-    motion_.velocity = vec(dBodyGetLinearVel(body));
-    motion_.spin = vec(dBodyGetAngularVel(body));
+    free_ = FreeMotion(body);
     if (dBodyIsKinematic(body)) {
         role_ = RigidRole::prescribed;
-        motion_.pose.rotation = orientation_.toRotationMatrix();
+        show_motion();
+        motion_.velocity = vec(dBodyGetLinearVel(body)); // its mass may be anything
+        motion_.spin = vec(dBodyGetAngularVel(body));
         return;
     }
     role_ = dBodyGetNumJoints(body) == 0 ? RigidRole::free : RigidRole::unheard;
     asleep_ = !dBodyIsEnabled(body);
-    gyroscopic_ = dBodyGetGyroscopicMode(body);
-    max_spin_ = dBodyGetMaxAngularSpeed(body);
-
-    dMass mass;
-    dBodyGetMass(body, &mass);
-    inverse_mass_ = 1 / mass.mass;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            inertia_(i, j) = mass.I[4 * i + j];
-    inverse_inertia_ = inertia_.inverse();
+    inverse_mass_ = free_.inverse_mass();
     if (dBodyGetGravityMode(body)) {
         dVector3 g;
         dWorldGetGravity(dBodyGetWorld(body), g);
-        external_.force = mass.mass * vec(g);
+        external_.force = vec(g) / inverse_mass_;
     }
     external_.force += vec(dBodyGetForce(body));
     external_.torque = vec(dBodyGetTorque(body));
-
-    const Mat3 r = orientation_.toRotationMatrix();
-    momentum_ = mass.mass * motion_.velocity;
-    angular_momentum_ = r * (inertia_ * (r.transpose() * motion_.spin));
     if (!asleep_)
-        kick(external_.force, external_.torque, (h - dt) / 2);
-    update_motion();
+        free_.kick(external_, (h - dt) / 2);
+    show_motion();
 }
 
 RigidShadow::RigidShadow(MirroredBody& twin, double h) noexcept
@@ -105,14 +82,11 @@ void RigidShadow::prop(const RigidShadow* before) noexcept {
         return;
     live_ = before && before->live_;
     if (live_ && before->propped_ && TwinState(body_) == before->written_) {
-        motion_.pose.position = before->motion_.pose.position;
-        orientation_ = before->orientation_;
-        momentum_ = before->momentum_;
-        angular_momentum_ = before->angular_momentum_;
+        free_ = before->free_;
     } else if (!asleep_) {
-        kick(external_.force, external_.torque, -(h_ - last_dt_) / 2);
+        free_.kick(external_, -(h_ - last_dt_) / 2);
     }
-    update_motion();
+    show_motion();
 }
 
 void RigidShadow::add(const Wrench& reaction) noexcept {
@@ -130,18 +104,40 @@ void RigidShadow::add_from_rigid(const Wrench& reaction) noexcept {
     borne_ = true;
 }
 
-Vec3 RigidShadow::velocity_ahead(const Vec3& world, double dt) const noexcept {
+Vec6 RigidShadow::twist_ahead(double dt) const noexcept {
+    Vec6 twist;
+    twist << motion_.velocity, motion_.spin;
     if (inverse_mass_ == 0)
-        return motion_.velocity_at(world);
+        return twist;
+    if (twin_)
+        return twist + dt * (twin_->drift + answer(contact_));
+    twist.head<3>() += dt * inverse_mass_ * (external_.force + contact_.force);
+    twist.tail<3>() += dt * (free_.inverse_inertia() * (external_.torque + contact_.torque));
+    return twist;
+}
+
+Vec3 RigidShadow::velocity_ahead(const Vec3& world, double dt) const noexcept {
+    const Vec6 twist = twist_ahead(dt);
     const Vec3 lever = world - motion_.pose.position;
+    return twist.head<3>() + twist.tail<3>().cross(lever);
+}
+
+Mat6 RigidShadow::mobility() const noexcept {
+    Mat6 out = Mat6::Zero();
+    if (inverse_mass_ == 0)
+        return out;
     if (twin_) {
-        const Vec6 ahead = dt * (twin_->drift + answer(contact_));
-        return motion_.velocity + ahead.head<3>() + (motion_.spin + ahead.tail<3>()).cross(lever);
+        twin_->asked = true;
+        const Mat3& r = motion_.pose.rotation;
+        for (int i = 0; i < 2; ++i)
+            for (int k = 0; k < 2; ++k)
+                out.block<3, 3>(3 * i, 3 * k) =
+                    r * twin_->mobility.block<3, 3>(3 * i, 3 * k) * r.transpose();
+        return out;
     }
-    const Vec3 force = external_.force + contact_.force;
-    const Vec3 torque = external_.torque + contact_.torque;
-    return motion_.velocity + dt * inverse_mass_ * force +
-           (motion_.spin + dt * (inverse_inertia_world_ * torque)).cross(lever);
+    out.topLeftCorner<3, 3>() = inverse_mass_ * Mat3::Identity();
+    out.bottomRightCorner<3, 3>() = free_.inverse_inertia();
+    return out;
 }
 
 double RigidShadow::compliance(const Vec3& point, const Vec3& normal) const noexcept {
@@ -155,7 +151,7 @@ double RigidShadow::compliance(const Vec3& point, const Vec3& normal) const noex
             motion_.pose.rotation.transpose() * lever;
         return push.dot(twin_->mobility * push);
     }
-    return inverse_mass_ + lever.dot(inverse_inertia_world_ * lever);
+    return inverse_mass_ + lever.dot(free_.inverse_inertia() * lever);
 }
 
 Vec6 RigidShadow::answer(const Wrench& contact) const noexcept {
@@ -166,6 +162,18 @@ Vec6 RigidShadow::answer(const Wrench& contact) const noexcept {
     Vec6 world;
     world << r * turned.head<3>(), r * turned.tail<3>();
     return world;
+}
+
+double RigidShadow::grip_compliance(const Vec3& point, const Vec3& normal) const noexcept {
+    if (inverse_mass_ == 0)
+        return 0;
+    // The larger eigenvalue of the compliance in the tangent plane.
+    const Vec3 first = normal.unitOrthogonal();
+    const Vec3 second = normal.cross(first);
+    const double a = compliance(point, first);
+    const double b = compliance(point, second);
+    const double both = compliance(point, (first + second) * M_SQRT1_2);
+    return (a + b) / 2 + std::hypot((a - b) / 2, both - (a + b) / 2);
 }
 
 double RigidShadow::soften(double load) noexcept {
@@ -185,7 +193,7 @@ void RigidShadow::advance(double dt) noexcept {
         }
         asleep_ = false;
         if (role_ != RigidRole::mirrored && !propped_)
-            kick(external_.force, external_.torque, (h_ - dt) / 2);
+            free_.kick(external_, (h_ - dt) / 2);
     }
     if (role_ == RigidRole::mirrored) {
         take_impulse(dt);
@@ -206,11 +214,16 @@ void RigidShadow::advance(double dt) noexcept {
         return;
     }
     take_impulse(dt);
-    kick(external_.force + contact_.force, external_.torque + contact_.torque, dt);
-    drift(dt);
-    update_motion();
+    free_.kick({external_.force + contact_.force, external_.torque + contact_.torque}, dt);
+    free_.drift(dt);
+    show_motion();
     end_substep();
     last_dt_ = dt;
+}
+
+void RigidShadow::show_motion() noexcept {
+    orientation_ = free_.orientation();
+    motion_ = {free_.pose(), free_.velocity(), free_.spin()};
 }
 
 void RigidShadow::take_impulse(double dt) noexcept {
@@ -239,43 +252,6 @@ void RigidShadow::follow() noexcept {
     motion_.spin = vec(now.spin.data());
 }
 
-void RigidShadow::kick(const Vec3& force, const Vec3& torque, double dt) noexcept {
-    momentum_ += dt * force;
-    angular_momentum_ += dt * torque;
-}
-
-Vec3 RigidShadow::spin_of(const Quat& orientation) const noexcept {
-    const Mat3 r = orientation.toRotationMatrix();
-    return r * (inverse_inertia_ * (r.transpose() * angular_momentum_));
-}
-
-void RigidShadow::drift(double dt) noexcept {
-    motion_.pose.position += dt * inverse_mass_ * momentum_;
-    Vec3 spin = spin_of(orientation_);
-    const double speed = spin.norm();
-    if (speed > max_spin_) { // as dBodySetMaxAngularSpeed
-        spin *= max_spin_ / speed;
-        angular_momentum_ *= max_spin_ / speed;
-    }
-    if (gyroscopic_) {
-        const Vec3 midpoint = spin_of(turned(orientation_, dt / 2 * spin));
-        orientation_ = turned(orientation_, dt * midpoint).normalized();
-        return;
-    }
-    // Without the gyroscopic term it is the spin that stays, as under ODE.
-    orientation_ = turned(orientation_, dt * spin).normalized();
-    const Mat3 r = orientation_.toRotationMatrix();
-    angular_momentum_ = r * (inertia_ * (r.transpose() * spin));
-}
-
-void RigidShadow::update_motion() noexcept {
-    const Mat3 r = orientation_.toRotationMatrix();
-    inverse_inertia_world_ = r * inverse_inertia_ * r.transpose();
-    motion_.pose.rotation = r;
-    motion_.velocity = inverse_mass_ * momentum_;
-    motion_.spin = inverse_inertia_world_ * angular_momentum_;
-}
-
 void RigidShadow::hand_over() noexcept {
     if (!touched_ || asleep_ || role_ == RigidRole::fixed || role_ == RigidRole::prescribed)
         return;
@@ -298,11 +274,10 @@ void RigidShadow::write_back() noexcept {
     const auto damped = [](const Vec3& v, double threshold, double scale) {
         return v.norm() > threshold ? 1 - scale : 1.0;
     };
-    const Vec3 momentum = momentum_;
-    const Vec3 angular_momentum = angular_momentum_;
+    const FreeMotion inner = free_;
     if (!(propped_ && bore_))
-        kick(external_.force, external_.torque, -(h_ - last_dt_) / 2);
-    update_motion();
+        free_.kick(external_, -(h_ - last_dt_) / 2);
+    show_motion();
     const double keep = damped(motion_.velocity, dBodyGetLinearDampingThreshold(body_),
                                dBodyGetLinearDamping(body_));
     const double keep_spin =
@@ -318,8 +293,8 @@ void RigidShadow::write_back() noexcept {
     if (!propped_)
         return;
     written_ = TwinState(body_);
-    momentum_ = keep * momentum;
-    angular_momentum_ = keep_spin * angular_momentum;
+    free_ = inner;
+    free_.scale(keep, keep_spin);
 }
 
 } // namespace ode::soft

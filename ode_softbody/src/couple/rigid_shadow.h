@@ -1,5 +1,7 @@
 #pragma once
 
+#include "couple/contact_law.h"
+#include "couple/free_motion.h"
 #include "couple/mirror_world.h"
 
 #include <ode/objects.h>
@@ -18,9 +20,6 @@ enum class RigidRole {
 
 /// A rigid body's state during the substeps of one ODE step, integrated beside the soft bodies with
 /// the same leapfrog, so that what a contact gives to one side it takes from the other to rounding.
-///
-/// State: centre, linear momentum, orientation and angular momentum in the world frame; the latter
-/// holds the gyroscopic term by itself. Orientation by the exponential of the midpoint spin.
 ///
 /// Velocities: ODE moves a body by its velocity at the end of a step, so what it stores belongs to
 /// the middle of the step before. The shadow shifts it by the external force from there to half a
@@ -71,14 +70,25 @@ public:
     /// 0 when the body can't be moved.
     double compliance(const Vec3& point, const Vec3& normal) const noexcept;
 
-    /// Announces contacts of this substep before they push. @param load  how much they ask of
-    /// explicit stability: sum of (k dt^2 + 2 c dt) compliance().
-    /// @return factor on their stiffness and damping that a light body needs. It falls while
-    /// contacts bear, which can only lose energy, and is 1 again after a substep without any.
+    /// Acceleration by a wrench, joints obeyed, world frame; zero when the body can't be moved.
+    Mat6 mobility() const noexcept;
+    /// Velocity and spin after the kick to come, as far as they are known by now.
+    Vec6 twist_ahead(double dt) const noexcept;
+    bool can_move() const noexcept { return inverse_mass_ != 0; }
+    bool needs_books(double dt) const noexcept {
+        return can_move() && EnergyBook::is_needed(motion_.spin, dt);
+    }
+
+    /// Announces friction of this substep before it acts. @param load  how much it asks of explicit
+    /// stability: sum of (k dt^2 + 2 c dt) grip_compliance().
+    /// @return factor on its stiffness and damping that a light body needs. It falls while contacts
+    /// bear, which can only lose energy, and is 1 again after a substep without any.
     double soften(double load) noexcept;
     double softening() const noexcept { return softening_; }
     /// A contact that goes on carries its factor from step to step.
     void set_softening(double factor) noexcept { softening_ = factor; }
+    /// The largest compliance() of a point across a normal [1/kg].
+    double grip_compliance(const Vec3& point, const Vec3& normal) const noexcept;
 
     /// Kick by contact and external forces, then drift. A mirrored body's twin is told.
     void advance(double dt) noexcept;
@@ -121,13 +131,9 @@ public:
     void write_back() noexcept;
 
 private:
-    void kick(const Vec3& force, const Vec3& torque, double dt) noexcept;
-    void drift(double dt) noexcept;
-    void update_motion() noexcept;
+    void show_motion() noexcept; ///< motion_ becomes free_'s
     void take_impulse(double dt) noexcept;
     void end_substep() noexcept;
-    Vec3 spin_of(const Quat& orientation) const noexcept;
-
     Vec6 answer(const Wrench& contact) const noexcept; ///< mirrored: acceleration, world frame
 
     dBodyID body_ = nullptr;
@@ -135,12 +141,8 @@ private:
     RigidRole role_ = RigidRole::fixed;
     RigidMotion motion_;
     double h_ = 0;
-    double inverse_mass_ = 0;
-    Mat3 inertia_ = Mat3::Identity();     ///< body frame [kg m^2]
-    Mat3 inverse_inertia_ = Mat3::Zero(); ///< body frame
-    Mat3 inverse_inertia_world_ = Mat3::Zero();
-    Vec3 momentum_ = Vec3::Zero();         ///< [kg m/s]
-    Vec3 angular_momentum_ = Vec3::Zero(); ///< about the centre, world frame [kg m^2/s]
+    double inverse_mass_ = 0; ///< mirrored: 1, the mobility holds the true one
+    FreeMotion free_;         ///< unless mirrored
     Quat orientation_ = Quat::Identity();
     Wrench external_;   ///< gravity and the application's
     Wrench contact_;    ///< of this substep
@@ -149,8 +151,6 @@ private:
     double last_dt_ = 0;
     double load_ = 0;
     double softening_ = 1;
-    double max_spin_ = 0; ///< [rad/s]
-    bool gyroscopic_ = true;
     bool asleep_ = false;
     bool touched_ = false;
     bool propped_ = false;

@@ -34,6 +34,7 @@ void SampleContact::begin_step(const RigidShape& shape, const ContactLaw& law, d
     near_.reserve(sample_.size());
     touch_.clear();
     touch_.reserve(sample_.size());
+    close_.reserve(surface_.triangle.size());
 }
 
 void SampleContact::forget() noexcept {
@@ -44,19 +45,27 @@ void SampleContact::forget() noexcept {
 void SampleContact::look(const NodeArray& position, const Pose& shape, double reach) {
     near_.clear();
     pair_.clear();
+    close_.clear();
+    Aabb around = Aabb::empty();
+    for (const RigidSample& sample : sample_) {
+        Aabb ball{shape.to_world(sample.center), shape.to_world(sample.center)};
+        ball.grow(sample.radius + reach);
+        around.include(ball);
+    }
+    for (std::size_t t = 0; t < surface_.triangle.size(); ++t) {
+        Aabb box = Aabb::empty();
+        for (const int n : surface_.triangle[t])
+            box.include(position[index(n)]);
+        if (around.overlaps(box))
+            close_.push_back({static_cast<int>(t), box});
+    }
     for (std::size_t s = 0; s < sample_.size(); ++s) {
         const Vec3 center = shape.to_world(sample_[s].center);
         const double most = sample_[s].radius + reach;
         const auto first = static_cast<int>(pair_.size());
-        for (std::size_t t = 0; t < surface_.triangle.size(); ++t) {
-            const auto& [a, b, c] = surface_.triangle[t];
-            const Vec3 xa = position[index(a)];
-            const Vec3 low = xa.cwiseMin(position[index(b)]).cwiseMin(position[index(c)]);
-            const Vec3 high = xa.cwiseMax(position[index(b)]).cwiseMax(position[index(c)]);
-            const Vec3 out = (low - center).cwiseMax(center - high).cwiseMax(0.0);
-            if (out.squaredNorm() < most * most)
-                pair_.push_back(static_cast<int>(t));
-        }
+        for (const Close& close : close_)
+            if (close.box.distance2({center, center}) < most * most)
+                pair_.push_back(close.triangle);
         const auto last = static_cast<int>(pair_.size());
         if (last > first)
             near_.push_back({static_cast<int>(s), first, last});
@@ -126,18 +135,23 @@ double SampleContact::find_touching(const NodeArray& position, const NodeArray& 
         const Vec3 normal =
             clear ? Vec3(away * ((outside ? 1 : -1) / distance)) : outward.normalized();
         const double whole = sample.radius - (outside ? distance : -distance);
-        Touch touch{{closest.triangle, closest.at, whole}, near.sample, 0};
-        const Vec3 slip = slip_at(touch, surface_, velocity, rigid.motion());
+        Touch touch{{closest.triangle, closest.at, whole, Vec3::Zero()}, near.sample};
+        touch.slip = slip_at(touch, surface_, velocity, rigid.motion());
+        const Vec3& slip = touch.slip;
         touch.depth -= state.overlap.hidden(whole, -slip.dot(normal), dt);
         const double depth = touch.depth;
         if (depth <= 0) {
             if (whole <= 0) {
+                const EnergyBook book = state.book;
                 state = State{};
+                state.book = book;
                 state.was_outside = true;
                 state.overlap.hidden(0, 0, dt);
             }
-            if (depth <= -kForesight * dt * slip.norm())
+            if (depth <= -kForesight * dt * slip.norm()) {
+                state.book.close();
                 continue;
+            }
         }
         if (!state.bears && !state.was_outside && !(depth <= kEntryDepth * surface_.mean_edge))
             continue;
@@ -156,19 +170,31 @@ double SampleContact::find_touching(const NodeArray& position, const NodeArray& 
         state.stiffness = std::fmin(state.stiffness, k); // never rises while it bears
         state.normal = normal;
         touch.damping = std::fmin(state.stiffness * law_.damping, kDampingShare * light / dt_);
-        load += load_of(touch, state, touch.damping, dt, rigid);
+        if (law_.friction > 0)
+            load += grip_load(touch, state, dt, rigid);
+        if (rigid.needs_books(dt))
+            open_book(touch, state, dt);
         touch_.push_back(touch);
     }
     return load;
 }
 
-std::size_t SampleContact::push(const NodeArray& velocity, std::span<const double> inverse_mass,
-                                double softening, double dt, RigidShadow& rigid,
-                                const NodeForces& force) noexcept {
+void SampleContact::sweep(const TouchForces& on, RigidResponse& rigid) noexcept {
+    for (Touch& touch : touch_)
+        sweep_triangle(touch, state_[index(touch.sample)], surface_, on, rigid);
+}
+
+void SampleContact::enter_books(const TouchForces& on, const RigidResponse& rigid) noexcept {
+    for (const Touch& touch : touch_)
+        enter_book(touch, state_[index(touch.sample)], surface_, on, rigid);
+}
+
+std::size_t SampleContact::drag(double softening, const TouchForces& on,
+                                RigidShadow& rigid) noexcept {
     std::size_t bearing = 0;
     for (const Touch& touch : touch_)
-        bearing += push_triangle(touch, state_[index(touch.sample)], law_, touch.damping, softening,
-                                 surface_, velocity, inverse_mass, dt, rigid, force);
+        bearing += drag_triangle(touch, state_[index(touch.sample)], law_.friction, softening,
+                                 surface_, on, rigid);
     return bearing;
 }
 

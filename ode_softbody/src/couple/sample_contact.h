@@ -1,5 +1,6 @@
 #pragma once
 
+#include "collide/aabb.h"
 #include "couple/rigid_samples.h"
 #include "couple/triangle_touch.h"
 
@@ -30,15 +31,16 @@ public:
     /// The surface is out of every sample's reach.
     void look_away() noexcept;
 
-    /// Fills touch_. @return what the contacts ask of the rigid body's stability; tests are added
-    /// up.
+    /// Fills touch_. @return what their friction asks of the rigid body's stability; tests are
+    /// added up.
     double find_touching(const NodeArray& position, const NodeArray& velocity,
                          const RigidShadow& rigid, const Pose& in_body, double dt,
                          unsigned long& tests) noexcept;
-    /// Adds the forces of the contacts found. @return how many bore one.
-    std::size_t push(const NodeArray& velocity, std::span<const double> inverse_mass,
-                     double softening, double dt, RigidShadow& rigid,
-                     const NodeForces& force) noexcept;
+    /// Normal forces of the contacts found, see sweep_triangle().
+    void sweep(const TouchForces& on, RigidResponse& rigid) noexcept;
+    /// Their friction. @return how many bear.
+    std::size_t drag(double softening, const TouchForces& on, RigidShadow& rigid) noexcept;
+    void enter_books(const TouchForces& on, const RigidResponse& rigid) noexcept;
 
     bool is_touching() const noexcept { return !touch_.empty(); }
     double reach() const noexcept; ///< of the farthest sample from the shape's origin [m]
@@ -58,7 +60,6 @@ private:
     };
     struct Touch : TriangleTouch {
         int sample;
-        double damping; ///< [N s/m]
     };
     struct Closest {
         int triangle = -1;
@@ -78,6 +79,11 @@ private:
     std::vector<State> state_, kept_;
     std::vector<Near> near_;
     std::vector<int> pair_; ///< triangles
+    struct Close {
+        int triangle;
+        Aabb box;
+    };
+    std::vector<Close> close_; ///< near some sample; scratch of look()
     std::vector<Touch> touch_;
 };
 

@@ -7,6 +7,13 @@ namespace {
 
 std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
+void share(const TriangleTouch& touch, const SurfaceNodes& surface, const Vec3& f,
+           const NodeForces& force) noexcept {
+    const auto& corner = surface.triangle[index(touch.triangle)];
+    for (int i = 0; i < 3; ++i)
+        force.add(index(corner[index(i)]), touch.at.weight[i] * f);
+}
+
 } // namespace
 
 Vec3 slip_at(const TriangleTouch& touch, const SurfaceNodes& surface, const NodeArray& velocity,
@@ -18,50 +25,90 @@ Vec3 slip_at(const TriangleTouch& touch, const SurfaceNodes& surface, const Node
     return slip;
 }
 
-double load_of(const TriangleTouch& touch, const TouchState& state, double damping, double dt,
-               const RigidShadow& rigid) noexcept {
-    return (state.stiffness * dt + 2 * damping) * dt *
-           rigid.compliance(touch.at.point, state.normal);
+double grip_load(const TriangleTouch& touch, const TouchState& state, double dt,
+                 const RigidShadow& rigid) noexcept {
+    return kTangential * (state.stiffness * dt + 2 * touch.damping) * dt *
+           rigid.grip_compliance(touch.at.point, state.normal);
 }
 
-bool push_triangle(const TriangleTouch& touch, TouchState& state, const ContactLaw& law,
-                   double damping, double softening, const SurfaceNodes& surface,
-                   const NodeArray& velocity, std::span<const double> inverse_mass, double dt,
-                   RigidShadow& rigid, const NodeForces& force) noexcept {
+void open_book(TriangleTouch& touch, TouchState& state, double dt) noexcept {
+    touch.owed = state.book.open({.stiffness = state.stiffness,
+                                  .damping = 0,
+                                  .compliance = 0,
+                                  .depth = touch.depth,
+                                  .speed = -touch.slip.dot(state.normal),
+                                  .ahead = 0,
+                                  .point = state.is_point ? &state.point : nullptr},
+                                 dt);
+}
+
+namespace {
+
+struct Ahead {
+    Vec3 slip;
+    double compliance; ///< of the triangle [1/kg]
+};
+
+/// Of the rigid against the soft side after the kick, with all force so far.
+Ahead look_ahead(const TriangleTouch& touch, const SurfaceNodes& surface, const TouchForces& on,
+                 const RigidResponse& rigid) noexcept {
     const auto& corner = surface.triangle[index(touch.triangle)];
-    const Vec3& weight = touch.at.weight;
-    const double k = softening * state.stiffness;
-    const double c = softening * damping;
-    Vec3 ahead = rigid.velocity_ahead(touch.at.point, dt);
-    double compliance = rigid.compliance(touch.at.point, state.normal);
+    Ahead out{rigid.velocity_at(touch.at.point), 0};
     for (int i = 0; i < 3; ++i) {
         const std::size_t n = index(corner[index(i)]);
-        ahead -= weight[i] * (velocity[n] + dt * inverse_mass[n] * force[n]);
-        compliance += weight[i] * weight[i] * inverse_mass[n];
+        const double w = touch.at.weight[i];
+        out.slip -= w * (on.velocity[n] + on.dt * on.inverse_mass[n] * on.force[n]);
+        out.compliance += w * w * on.inverse_mass[n];
     }
-    const Vec3 slip = slip_at(touch, surface, velocity, rigid.motion());
-    const double parting = slip.dot(state.normal);
-    const double press = NormalContact{.stiffness = k,
-                                       .damping = c,
-                                       .compliance = compliance,
-                                       .depth = touch.depth,
-                                       .speed = -parting,
-                                       .ahead = -ahead.dot(state.normal),
-                                       .point = state.is_point ? &state.point : nullptr}
-                             .press(dt);
-    if (press == 0)
+    return out;
+}
+
+} // namespace
+
+void sweep_triangle(TriangleTouch& touch, const TouchState& state, const SurfaceNodes& surface,
+                    const TouchForces& on, RigidResponse& rigid) noexcept {
+    const Ahead ahead = look_ahead(touch, surface, on, rigid);
+    const Press press = NormalContact{.stiffness = state.stiffness,
+                                      .damping = touch.damping,
+                                      .compliance = ahead.compliance,
+                                      .depth = touch.depth,
+                                      .speed = -touch.slip.dot(state.normal),
+                                      .ahead = -ahead.slip.dot(state.normal) +
+                                               on.dt * ahead.compliance * touch.press.force,
+                                      .point = state.is_point ? &state.point : nullptr,
+                                      .owed = touch.owed}
+                            .press(on.dt);
+    rigid.add(touch.at.point, state.normal, press, touch.press.force);
+    const double more = press.force - touch.press.force;
+    touch.press = press;
+    if (more != 0)
+        share(touch, surface, -more * state.normal, on.force);
+}
+
+void enter_book(const TriangleTouch& touch, TouchState& state, const SurfaceNodes& surface,
+                const TouchForces& on, const RigidResponse& rigid) noexcept {
+    const Ahead ahead = look_ahead(touch, surface, on, rigid);
+    state.book.enter(touch.press.spring, -on.dt * (touch.slip + ahead.slip).dot(state.normal));
+}
+
+bool drag_triangle(const TriangleTouch& touch, TouchState& state, double friction, double softening,
+                   const SurfaceNodes& surface, const TouchForces& on,
+                   RigidShadow& rigid) noexcept {
+    if (touch.press.force == 0)
         return false;
     state.bears = true;
-    const Vec3 across = slip - parting * state.normal;
-    const double grip = law.friction * press;
-    state.stretch += dt * across;
+    if (friction == 0)
+        return true;
+    const double k = kTangential * softening * state.stiffness;
+    const double c = kTangential * softening * touch.damping;
+    const Vec3 across = touch.slip - touch.slip.dot(state.normal) * state.normal;
+    const double grip = friction * touch.press.force;
+    state.stretch += on.dt * across;
     state.stretch -= state.normal.dot(state.stretch) * state.normal;
-    clamp_length(state.stretch, grip / (kTangential * k));
-    Vec3 f = -kTangential * (k * state.stretch + c * across);
+    clamp_length(state.stretch, grip / k);
+    Vec3 f = -k * state.stretch - c * across;
     clamp_length(f, grip);
-    f += press * state.normal;
-    for (int i = 0; i < 3; ++i)
-        force.add(index(corner[index(i)]), -weight[i] * f);
+    share(touch, surface, -f, on.force);
     rigid.add({f, (touch.at.point - rigid.motion().pose.position).cross(f)});
     return true;
 }

@@ -4,7 +4,7 @@
 #include "couple/contact_law.h"
 #include "couple/hertz_spring.h"
 #include "couple/node_forces.h"
-#include "couple/rigid_shadow.h"
+#include "couple/rigid_response.h"
 #include "couple/surface_nodes.h"
 
 #include <span>
@@ -19,6 +19,7 @@ struct TouchState {
     Vec3 stretch = Vec3::Zero(); ///< of the friction spring, world [m]
     double stiffness = 0;        ///< [N/m]
     Overlap overlap;
+    EnergyBook book;
     bool is_point = false; ///< bears by `point`, with the elasticity known
     HertzSpring point;
 };
@@ -27,27 +28,45 @@ struct TouchState {
 struct TriangleTouch {
     int triangle;
     TrianglePoint at;
-    double depth; ///< [m]
+    double depth;       ///< [m]
+    Vec3 slip;          ///< of the rigid against the soft side, half a substep ago [m/s]
+    double damping = 0; ///< [N s/m]
+    double owed = 0;    ///< see EnergyBook [J]
+    Press press = {};   ///< so far
+};
+
+/// What a substep's contacts act on. The soft side's forces hold everything else that acts.
+struct TouchForces {
+    std::span<const double> inverse_mass; ///< of every mesh node [1/kg]; 0: held
+    const NodeArray& velocity;            ///< half a substep ago
+    NodeForces force;
+    double dt;
 };
 
 /// Velocity of the rigid against the soft side at a touch [m/s].
 Vec3 slip_at(const TriangleTouch& touch, const SurfaceNodes& surface, const NodeArray& velocity,
              const RigidMotion& motion) noexcept;
 
-/// What the contact asks of a light rigid body's stability: see RigidShadow::soften().
-/// @param damping  of the dashpots [N s/m]
-double load_of(const TriangleTouch& touch, const TouchState& state, double damping, double dt,
-               const RigidShadow& rigid) noexcept;
+/// What the touch's friction asks of a light rigid body: see RigidShadow::soften().
+double grip_load(const TriangleTouch& touch, const TouchState& state, double dt,
+                 const RigidShadow& rigid) noexcept;
 
-/// Adds the contact's force to both sides, opposite at one point: the triangle's corners take it by
-/// their weights.
-/// @param softening  on friction's spring and the dashpots, whose explicit step it keeps stable;
-/// the
-///                   normal spring is stable by itself
-/// @return whether it bore any.
-bool push_triangle(const TriangleTouch& touch, TouchState& state, const ContactLaw& law,
-                   double damping, double softening, const SurfaceNodes& surface,
-                   const NodeArray& velocity, std::span<const double> inverse_mass, double dt,
-                   RigidShadow& rigid, const NodeForces& force) noexcept;
+/// Opens the book of a touch that was found.
+void open_book(TriangleTouch& touch, TouchState& state, double dt) noexcept;
+
+/// Brings the normal force in line with all other force on both sides. The triangle's corners take
+/// it by their weights at once, the rigid side is told of it.
+void sweep_triangle(TriangleTouch& touch, const TouchState& state, const SurfaceNodes& surface,
+                    const TouchForces& on, RigidResponse& rigid) noexcept;
+
+/// Enters what the normal spring did in this substep, all forces being known.
+void enter_book(const TriangleTouch& touch, TouchState& state, const SurfaceNodes& surface,
+                const TouchForces& on, const RigidResponse& rigid) noexcept;
+
+/// Adds friction to both sides, opposite at one point.
+/// @param softening  on its spring and dashpot, whose explicit step it keeps stable
+/// @return whether the touch bears.
+bool drag_triangle(const TriangleTouch& touch, TouchState& state, double friction, double softening,
+                   const SurfaceNodes& surface, const TouchForces& on, RigidShadow& rigid) noexcept;
 
 } // namespace ode::soft

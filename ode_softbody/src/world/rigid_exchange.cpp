@@ -52,6 +52,7 @@ void RigidExchange::begin_step(dWorldID world, std::span<const std::unique_ptr<B
     for (Contact& contact : contact_)
         contact.law->keep();
     meet_rigid(h, dt);
+    response_.assign(shadow_.size(), {});
 }
 
 void RigidExchange::lay_aside_sleepers() {
@@ -98,23 +99,81 @@ void RigidExchange::meet_rigid(double h, double dt) {
 
 ContactTally RigidExchange::add_forces(double dt) noexcept {
     ContactTally sum;
-    // First, because they are explicit: what a soft body's contacts see of the push to come keeps
-    // their energy right.
-    if (rigid_.size() != 0)
-        rigid_bearing_ += rigid_.add_forces(shadow_, dt);
+    bool bears = false;
+    bool drags = rigid_.size() != 0;
     for (Contact& contact : contact_) {
         Body& body = *contact.body;
-        const ContactTally tally =
-            contact.law->add_force(body.state_.position, body.state_.velocity,
-                                   shadow_[contact.shadow], dt, {body.force_, &body.contacts_});
-        body.bearing_points_ += tally.bearing;
-        const RigidRole role = shadow_[contact.shadow].role();
-        body.meets_movable_ |=
-            tally.bearing != 0 && role != RigidRole::fixed && role != RigidRole::prescribed;
-        sum.tests += tally.tests;
-        sum.bearing += tally.bearing;
+        sum.tests += contact.law->find(body.state_.position, body.state_.velocity,
+                                       shadow_[contact.shadow], dt);
+        if (!contact.law->is_touching())
+            continue;
+        bears = true;
+        RigidShadow& shadow = shadow_[contact.shadow];
+        if (!shadow.can_move())
+            contact.law->push_at_once(body.state_.position, forces_on(body, dt), shadow);
+        response_[contact.shadow].wanted = true;
     }
+    if (!bears && rigid_.size() == 0)
+        return sum;
+    rigid_.begin_substep(shadow_, dt);
+    bool moves = rigid_.size() != 0;
+    for (std::size_t i = 0; i < response_.size(); ++i)
+        if (response_[i].wanted) {
+            response_[i].begin(shadow_[i], dt);
+            moves = moves || response_[i].moves();
+        }
+    const auto once = [&] {
+        const double change = sweep(dt);
+        return moves ? change : 0;
+    };
+    settle(once);
+    if (rigid_.size() != 0)
+        rigid_bearing_ += rigid_.drag(shadow_, dt);
+    for (Contact& contact : contact_) {
+        if (!contact.law->is_touching())
+            continue;
+        const std::size_t bearing =
+            contact.law->drag(forces_on(*contact.body, dt), shadow_[contact.shadow]);
+        contact.body->bearing_points_ += bearing;
+        const RigidRole role = shadow_[contact.shadow].role();
+        contact.body->meets_movable_ |=
+            bearing != 0 && role != RigidRole::fixed && role != RigidRole::prescribed;
+        sum.bearing += bearing;
+        drags = drags || contact.law->has_friction();
+    }
+    if (moves && drags)
+        settle(once);
+    for (std::size_t i = 0; i < response_.size(); ++i)
+        if (response_[i].wanted && response_[i].moves())
+            response_[i].end(shadow_[i]);
+    for (Contact& contact : contact_)
+        if (contact.law->is_touching() && response_[contact.shadow].moves())
+            contact.law->enter_books(forces_on(*contact.body, dt), response_[contact.shadow]);
+    for (RigidResponse& response : response_)
+        response.wanted = false;
     return sum;
+}
+
+double RigidExchange::sweep(double dt) noexcept {
+    double change = 0;
+    if (rigid_.size() != 0)
+        change = rigid_.sweep(shadow_, dt);
+    for (std::size_t i = 0; i < response_.size(); ++i)
+        if (response_[i].wanted)
+            response_[i].open(shadow_[i]);
+    for (Contact& contact : contact_)
+        if (contact.law->is_touching())
+            contact.law->sweep(forces_on(*contact.body, dt), response_[contact.shadow]);
+    for (std::size_t i = 0; i < response_.size(); ++i)
+        if (response_[i].wanted) {
+            response_[i].close(shadow_[i]);
+            change = std::max(change, response_[i].change());
+        }
+    return change;
+}
+
+TouchForces RigidExchange::forces_on(Body& body, double dt) noexcept {
+    return {body.inverse_mass_, body.state_.velocity, {body.force_, &body.contacts_}, dt};
 }
 
 void RigidExchange::advance(double dt) noexcept {

@@ -2,6 +2,7 @@
 
 #include "couple/node_contact.h"
 #include "couple/rigid_contacts.h"
+#include "couple/rigid_response.h"
 #include "couple/rigid_shadow.h"
 #include "world/rigid_islands.h"
 
@@ -70,6 +71,8 @@ private:
     };
 
     void lay_aside_sleepers();
+    double sweep(double dt) noexcept;
+    static TouchForces forces_on(Body& body, double dt) noexcept;
     void gather_islands(dWorldID world, std::span<const std::unique_ptr<Body>> bodies, double h,
                         double dt);
     void meet_rigid(double h, double dt);
@@ -82,8 +85,9 @@ private:
     std::vector<Contact> contact_;
     std::vector<Contact> dormant_; ///< of soft bodies at rest, for friction's memory
     std::vector<RigidShadow> shadow_;
-    std::vector<RigidShadow> before_; ///< of the step before
-    bool stepped_ = true;             ///< write_back() has followed begin_step()
+    std::vector<RigidShadow> before_;     ///< of the step before
+    std::vector<RigidResponse> response_; ///< parallel to shadow_
+    bool stepped_ = true;                 ///< write_back() has followed begin_step()
     std::vector<dBodyID> lingering_;
     RigidIslands islands_;
     MirrorWorld mirror_;

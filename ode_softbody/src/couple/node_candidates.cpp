@@ -1,0 +1,97 @@
+// Which nodes, samples and poles a substep has to look at, and for how long that holds.
+#include "couple/node_contact.h"
+#include "couple/outward.h"
+
+#include <cmath>
+#include <limits>
+
+namespace ode::soft {
+namespace {
+
+// How far nodes may get before they are looked at anew: elastic waves may make them kHaste times
+// as fast as the fastest is now, free bodies may accelerate by kAcceleration.
+constexpr double kHaste = 4;
+constexpr double kAcceleration = 1000; ///< [m/s^2]
+
+std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
+
+/// Unit vector into the soft body at a surface node; zero for a node without triangles.
+Vec3 inward_at(const SurfaceNodes& surface, const NodeArray& position, std::size_t i) noexcept {
+    Vec3 sum = Vec3::Zero();
+    if (!surface.triangle.empty())
+        for (const int t : surface.fan(surface.node[i]))
+            sum -= area_vector(surface, position, t);
+    return sum.stableNormalized();
+}
+
+} // namespace
+
+void NodeContact::find_candidates(const NodeArray& position, const NodeArray& velocity,
+                                  const RigidMotion& motion) noexcept {
+    const Pose pose = shape_.pose.in(motion.pose);
+    const double reach = kReach * nodes_.mean_edge;
+    double nearest = std::numeric_limits<double>::infinity(); // of those left out
+    double closest = nearest;                                 // of all
+    double fastest2 = 0;
+    candidate_.clear();
+    for (std::size_t i = 0; i < nodes_.node.size(); ++i) {
+        const auto x = position[index(nodes_.node[i])];
+        const Vec3 slip = velocity[index(nodes_.node[i])] - motion.velocity_at(x);
+        fastest2 = std::fmax(fastest2, slip.squaredNorm());
+        const double distance = shape_.distance(pose.to_local(x)).distance;
+        closest = std::fmin(closest, distance);
+        if (distance < reach)
+            candidate_.push_back(static_cast<int>(i));
+        else
+            nearest = std::fmin(nearest, distance);
+    }
+    // A triangle within reach of a sample has a corner not farther than an edge more.
+    if (closest < reach + 2 * nodes_.mean_edge) {
+        samples_.look(position, pose, reach);
+        nearest = std::fmin(nearest, reach); // as far as they may slide
+    } else
+        samples_.look_away();
+    if (!recess_.empty() && shape_.kind != ShapeKind::sphere)
+        poles_.look(candidate_, position, pose);
+    // Samples lie within size of the shape's middle; rotation may move them faster than any node
+    // sees.
+    const double span =
+        shape_.kind == ShapeKind::convex ? samples_.reach() : shape_.size.norm() + shape_.size.x();
+    schedule_look(nearest, std::sqrt(fastest2) + motion.spin.norm() * span);
+}
+
+void NodeContact::schedule_look(double nearest, double fastest) noexcept {
+    look_again_in_ = nearest / (kHaste * fastest + std::sqrt(kAcceleration * nearest / 2));
+}
+
+void NodeContact::probe_candidates(const NodeArray& position, const NodeArray& velocity,
+                                   const RigidMotion& motion) noexcept {
+    const Pose pose = shape_.pose.in(motion.pose);
+    double fastest2 = 0;
+    candidate_.clear();
+    planes_.clear();
+    for (std::size_t i = 0; i < nodes_.node.size(); ++i) {
+        const auto x = position[index(nodes_.node[i])];
+        const Vec3 slip = velocity[index(nodes_.node[i])] - motion.velocity_at(x);
+        fastest2 = std::fmax(fastest2, slip.squaredNorm());
+        // A node that is in is looked at from outside, where ODE's answers are good.
+        const Vec3 lift = anchored_[i] ? Vec3(0.5 * probe_->radius() * entered_[i]) : Vec3::Zero();
+        Planes planes;
+        planes.count = probe_->feel(shape_.probe, pose.to_local(x) + lift, planes.plane);
+        if (planes.count == 0 &&
+            !anchored_[i]) { // may be in already: ask from within the soft body
+            const Vec3 inward = pose.rotation.transpose() * inward_at(nodes_, position, i);
+            planes.count = probe_->feel(
+                shape_.probe, pose.to_local(x) + 0.5 * probe_->radius() * inward, planes.plane);
+        }
+        if (planes.count == 0) {
+            anchored_[i] = 0;
+            continue;
+        }
+        candidate_.push_back(static_cast<int>(i));
+        planes_.push_back(planes);
+    }
+    schedule_look(probe_->radius(), std::sqrt(fastest2));
+}
+
+} // namespace ode::soft
