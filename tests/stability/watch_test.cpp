@@ -97,6 +97,25 @@ TEST(Watch, LeavesStableBodiesAlone) {
         }
 }
 
+// A force on a node of a body that is wholly at rest, however late and strong.
+TEST(Watch, LeavesABodyAloneThatIsPushed) {
+    for (const bool held : {false, true}) {
+        Scene scene;
+        Body& bar = scene.add(make_bar(0.2, 0.03, 0.02, 10, 1, 1), solid_of(200e9, 0.29, 7850));
+        if (held) {
+            const int nodes[] = {0, 1, 2};
+            bar.pin(nodes);
+        }
+        for (int i = 0; i < 10; ++i) {
+            if (i == 2 || i == 6)
+                bar.add_force(40, {0, 10, 200});
+            scene.step(0.002);
+        }
+        EXPECT_EQ(bar.rollbacks(), 0) << held;
+        EXPECT_GT(bar.budget().energy(), 0);
+    }
+}
+
 // Momentum: what a ball got in an attempt that was taken back it doesn't keep.
 TEST(Watch, AStepThatIsRedoneGivesNoImpulseTwice) {
     for (const double share : {0.9, 1.3, 3.0}) {

@@ -312,8 +312,9 @@ TEST_P(ElasticModelTest, ExtremesOfAUniformStretchAreExact) {
     EXPECT_NEAR(s_.model->add_force(x, still_, force).min_jacobian, -1, 1e-12);
 }
 
-// Of the worst element at its worst point, found one by one. The stretch is a bound: never below,
-// and within the lateral stretches' spread, here a fifth.
+// Of the worst element at its worst point, found one by one. The stretch is a bound made of the
+// least J and the greatest trace of all: never below, and at most the root of a trace, which is
+// that of three such stretches at most.
 TEST_P(ElasticModelTest, ExtremesAreThoseOfTheWorstElement) {
     for (const double amplitude : {0.004, 0.02}) {
         const NodeArray x = disturbed(s_.rest, amplitude, 5);
@@ -337,7 +338,7 @@ TEST_P(ElasticModelTest, ExtremesAreThoseOfTheWorstElement) {
         const StrainExtremes found = s_.model->add_force(x, still_, force);
         EXPECT_NEAR(found.min_jacobian, least, 1e-12);
         EXPECT_GE(found.max_stretch, most * (1 - 1e-12));
-        EXPECT_LE(found.max_stretch, most * 1.2);
+        EXPECT_LE(found.max_stretch, most * std::numbers::sqrt3);
     }
 }
 
@@ -349,8 +350,9 @@ TEST_P(ElasticModelTest, EnergyComesWithTheForce) {
         return s_.model->add_force(x, still_, force).energy;
     };
     const double scale = solid_.young * s_.volume;
-    EXPECT_NEAR(found_at(s_.rest), 0, 1e-26 * scale);
     const bool series = std::string(GetParam().name).find("Neo") != std::string::npos;
+    // At rest a square of rounding; the neo-Hookean one is a difference of numbers of E V.
+    EXPECT_NEAR(found_at(s_.rest), 0, (series ? 8 * 2.2e-16 : 1e-26) * scale);
     for (const double amplitude : {1e-6, 0.001, 0.008, 0.05}) {
         const NodeArray x = disturbed(s_.rest, amplitude, 3);
         const double exact = s_.model->energy(x);
