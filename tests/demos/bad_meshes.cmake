@@ -88,7 +88,8 @@ write_medit(turned.mesh "${corner}" "2 1 3 4 0")
 foreach(file whole turned)
     must_succeed(modes ${file}.mesh ${steel} --count 1 --json - --quiet)
     string(JSON ${file} GET "${out}" frequencies 0)
-    string(SUBSTRING "${${file}}" 0 12 ${file}) # the last bits depend on the order of nodes
+    # What refinement in single precision leaves depends on the order of nodes: 1e-7, 2e-4 cents.
+    string(SUBSTRING "${${file}}" 0 8 ${file})
 endforeach()
 if(NOT whole EQUAL turned)
     message(SEND_ERROR "winding changes the pitch: ${whole} and ${turned} Hz")
