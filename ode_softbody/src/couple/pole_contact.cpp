@@ -205,6 +205,9 @@ double PoleContact::find_touching(const NodeArray& position, const NodeArray& ve
         if (pole.held) {
             follow(pole, position, shape);
             pole.held = pole.touch.depth > 0;
+            // Elsewhere the surface is in already: that depth would be energy from nowhere.
+            if (!pole.held)
+                state.overlap = {};
         }
         if (!pole.held) {
             climb(pole, position, shape);
