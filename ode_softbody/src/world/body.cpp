@@ -228,7 +228,9 @@ void Body::take_load(const Vec3& gravity) noexcept {
         far2 = std::max(far2, state_.position[i].squaredNorm());
     }
     const double rounding = kRounding * largest_frequency_ * std::sqrt(far2); // [m/s]
-    noise_ = total_mass_ * rounding * rounding + elastic_noise_;
+    // Nor is there harm in a body that all but rests: growth is out of it within a few substeps.
+    constexpr double kStill = 1e-6; // [m/s]
+    noise_ = total_mass_ * (rounding * rounding + kStill * kStill / 2) + elastic_noise_;
     load_at_look_ = load_now();
 }
 
