@@ -343,5 +343,6 @@ DSOFT_API int dSoftWorldRemoveObserver(dSoftWorldID world, void* data);
 #endif
 
 #include <ode_softbody/rest.h>
+#include <ode_softbody/tier.h>
 
 #endif

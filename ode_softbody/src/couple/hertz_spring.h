@@ -32,14 +32,20 @@ public:
 
     HertzSpring() = default; ///< bears nothing
     /// @param hertz       k [N/m^1.5], > 0
-    /// @param compliance  C [m/N], > 0
+    /// @param compliance  C [m/N]; of a body that moves in a few modes, which yield less than a
+    ///                    mesh, it may be negative: the rest of its yielding is in the spring then
     /// @param deepest     the curved part ends here if not before [m]: half-spaces end too
     HertzSpring(double hertz, double compliance, double deepest) noexcept
-        : a_(1 / std::cbrt(hertz * hertz)), c_(compliance), steep_(kSteepness / compliance) {
-        // dF/d(depth) = 3 s / (2 a - 3 C s) reaches steep_ where
-        end_s_ = 2 * a_ * steep_ / (3 * (1 + c_ * steep_));
-        if (curved_depth(end_s_) > deepest)
+        : a_(1 / std::cbrt(hertz * hertz)), c_(compliance) {
+        if (compliance > 0) {
+            // dF/d(depth) = 3 s / (2 a - 3 C s) reaches steep_ where
+            steep_ = kSteepness / compliance;
+            end_s_ = 2 * a_ * steep_ / (3 * (1 + c_ * steep_));
+        }
+        if (!(compliance > 0) || curved_depth(end_s_) > deepest)
             end_s_ = root(deepest);
+        if (!(compliance > 0))
+            steep_ = 3 * end_s_ / (2 * a_ - 3 * c_ * end_s_);
         end_depth_ = curved_depth(end_s_);
         end_force_ = end_s_ * end_s_ * end_s_;
         end_energy_ = curved_energy(end_s_);

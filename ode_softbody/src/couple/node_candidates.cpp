@@ -29,20 +29,23 @@ Vec3 inward_at(const SurfaceNodes& surface, const NodeArray& position, std::size
 void NodeContact::find_candidates(const NodeArray& position, const NodeArray& velocity,
                                   const RigidMotion& motion) noexcept {
     const Pose pose = shape_.pose.in(motion.pose);
-    const double reach = kReach * nodes_.mean_edge;
+    const double reach = reach_ * nodes_.mean_edge;
     double nearest = std::numeric_limits<double>::infinity(); // of those left out
     double closest = nearest;                                 // of all
     double fastest2 = 0;
     candidate_.clear();
+    closing_ = 0;
     for (std::size_t i = 0; i < nodes_.node.size(); ++i) {
         const auto x = position[index(nodes_.node[i])];
         const Vec3 slip = velocity[index(nodes_.node[i])] - motion.velocity_at(x);
         fastest2 = std::fmax(fastest2, slip.squaredNorm());
-        const double distance = shape_.distance(pose.to_local(x)).distance;
+        const SurfaceDistance there = shape_.distance(pose.to_local(x));
+        const double distance = there.distance;
         closest = std::fmin(closest, distance);
-        if (distance < reach)
+        if (distance < reach) {
             candidate_.push_back(static_cast<int>(i));
-        else
+            closing_ = std::fmax(closing_, -slip.dot(pose.rotation * there.normal));
+        } else
             nearest = std::fmin(nearest, distance);
     }
     // A triangle within reach of a sample has a corner not farther than an edge more.
@@ -57,11 +60,15 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
     // sees.
     const double span =
         shape_.kind == ShapeKind::convex ? samples_.reach() : shape_.size.norm() + shape_.size.x();
-    schedule_look(nearest, std::sqrt(fastest2) + motion.spin.norm() * span);
+    const double fastest = std::sqrt(fastest2) + motion.spin.norm() * span;
+    look_again_in_ = time_to_cross(nearest, fastest);
+    const double gap = closest - (recess_.empty() ? 0 : SurfaceNodes::kBulge * nodes_.mean_edge);
+    if (gap > 0 && !samples_.is_near())
+        quiet_in_ = time_to_cross(gap, fastest);
 }
 
-void NodeContact::schedule_look(double nearest, double fastest) noexcept {
-    look_again_in_ = nearest / (kHaste * fastest + std::sqrt(kAcceleration * nearest / 2));
+double NodeContact::time_to_cross(double gap, double fastest) noexcept {
+    return gap / (kHaste * fastest + std::sqrt(kAcceleration * gap / 2));
 }
 
 void NodeContact::probe_candidates(const NodeArray& position, const NodeArray& velocity,
@@ -69,6 +76,7 @@ void NodeContact::probe_candidates(const NodeArray& position, const NodeArray& v
     const Pose pose = shape_.pose.in(motion.pose);
     double fastest2 = 0;
     candidate_.clear();
+    closing_ = std::numeric_limits<double>::infinity(); // not asked for
     planes_.clear();
     for (std::size_t i = 0; i < nodes_.node.size(); ++i) {
         const auto x = position[index(nodes_.node[i])];
@@ -91,7 +99,7 @@ void NodeContact::probe_candidates(const NodeArray& position, const NodeArray& v
         candidate_.push_back(static_cast<int>(i));
         planes_.push_back(planes);
     }
-    schedule_look(probe_->radius(), std::sqrt(fastest2));
+    look_again_in_ = time_to_cross(probe_->radius(), std::sqrt(fastest2));
 }
 
 } // namespace ode::soft

@@ -84,9 +84,12 @@ void NodeContact::begin_step(const RigidShape& given, const ContactLaw& law,
         const bool held = inverse_mass[index(nodes_.node[i])] == 0;
         const double most = held ? std::numeric_limits<double>::infinity() : nodes_.mass[i];
         stiffness_[i] = std::fmin(kappa * nodes_.area[i], bearable * most);
+        if (!nodes_.residual.empty())
+            stiffness_[i] /= 1 + stiffness_[i] * nodes_.residual[index(nodes_.node[i])];
         damping_[i] = std::fmin(stiffness_[i] * law.damping, share * kDampingShare * most / dt);
     }
     look_again_in_ = 0;
+    quiet_in_ = 0;
 }
 
 void NodeContact::keep() {
@@ -141,14 +144,10 @@ void NodeContact::prepare_points() {
 unsigned long NodeContact::find(const NodeArray& position, const NodeArray& velocity,
                                 RigidShadow& rigid, double dt) noexcept {
     unsigned long tests = candidate_.size();
-    if (look_again_in_ <= 0) {
-        if (shape_.kind == ShapeKind::probed)
-            probe_candidates(position, velocity, rigid.motion());
-        else
-            find_candidates(position, velocity, rigid.motion());
-        tests = candidate_.size() + nodes_.node.size();
-    }
+    if (is_look_due())
+        tests = look(position, velocity, rigid);
     look_again_in_ -= dt;
+    quiet_in_ -= dt;
     touch_.clear();
     bearing_ = 0;
     at_once_ = !rigid.can_move() && shape_.kind != ShapeKind::probed;
@@ -163,6 +162,35 @@ unsigned long NodeContact::find(const NodeArray& position, const NodeArray& velo
         load += poles_.find_touching(position, velocity, rigid, dt, tests);
     softening_ = is_touching() ? rigid.soften(load) : 1;
     return tests;
+}
+
+unsigned long NodeContact::look(const NodeArray& position, const NodeArray& velocity,
+                                const RigidShadow& rigid) noexcept {
+    quiet_in_ = 0;
+    if (shape_.kind == ShapeKind::probed)
+        probe_candidates(position, velocity, rigid.motion());
+    else
+        find_candidates(position, velocity, rigid.motion());
+    return candidate_.size() + nodes_.node.size();
+}
+
+void NodeContact::pass(double dt) noexcept {
+    look_again_in_ -= dt;
+    quiet_in_ -= dt;
+    touch_.clear();
+    at_once_ = false;
+    softening_ = 1;
+}
+
+void NodeContact::collect_nodes(std::vector<int>& out) const {
+    for (const int i : candidate_) {
+        const int node = nodes_.node[index(i)];
+        out.push_back(node);
+        for (const int t : nodes_.fan(node))
+            out.insert(out.end(), nodes_.triangle[index(t)].begin(),
+                       nodes_.triangle[index(t)].end());
+    }
+    samples_.collect_nodes(out);
 }
 
 ContactTally NodeContact::add_force(const NodeArray& position, const NodeArray& velocity,

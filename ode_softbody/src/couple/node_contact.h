@@ -61,6 +61,22 @@ public:
     /// @return tests done.
     unsigned long find(const NodeArray& position, const NodeArray& velocity, RigidShadow& rigid,
                        double dt) noexcept;
+    /// What find() does first, on its own: a time for which nothing can touch may come of it.
+    bool is_look_due() const noexcept { return look_again_in_ <= 0; }
+    unsigned long look(const NodeArray& position, const NodeArray& velocity,
+                       const RigidShadow& rigid) noexcept;
+    void look_soon() noexcept { look_again_in_ = 0; }
+    /// For so long no node can touch the shape, and pass() may stand for find() [s].
+    /// How fast candidates come at the shape, at the last look [m/s].
+    double closing_speed() const noexcept { return closing_; }
+    /// How near a node is a candidate [mean edges]: the nearer, the fewer, and the more looks.
+    void set_reach(double edges) noexcept { reach_ = edges; }
+    double quiet_for() const noexcept { return bearing_ == 0 ? quiet_in_ : 0; }
+    void pass(double dt) noexcept;
+    /// The mesh nodes whose motion find() and what follows ask for until the next look; some more
+    /// than once.
+    void collect_nodes(std::vector<int>& out) const;
+
     bool is_touching() const noexcept {
         return (at_once_ && !candidate_.empty()) || !touch_.empty() || samples_.is_touching() ||
                poles_.is_touching();
@@ -106,7 +122,7 @@ private:
     RigidShape known_shape(const RigidShape& shape);
     void prepare_points();
 
-    void schedule_look(double nearest, double fastest) noexcept;
+    static double time_to_cross(double gap, double fastest) noexcept; ///< at least [s]
 
     /// A node inside the shape.
     struct Touch {
@@ -169,6 +185,9 @@ private:
     std::vector<Planes> planes_;
     std::span<const double> inverse_mass_; ///< of every mesh node [1/kg]; borrowed for the step
     double look_again_in_ = 0;             ///< [s]
+    double closing_ = 0;                   ///< [m/s]
+    double reach_ = kReach;                ///< [mean edges]
+    double quiet_in_ = 0;                  ///< nothing can touch for so long [s]
     std::size_t bearing_ = 0;
     double softening_ = 1; ///< in the last substep
     struct Memory {

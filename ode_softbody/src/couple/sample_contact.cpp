@@ -74,6 +74,12 @@ void SampleContact::look(const NodeArray& position, const Pose& shape, double re
     }
 }
 
+void SampleContact::collect_nodes(std::vector<int>& out) const {
+    for (const int t : pair_)
+        out.insert(out.end(), surface_.triangle[index(t)].begin(),
+                   surface_.triangle[index(t)].end());
+}
+
 double SampleContact::reach() const noexcept {
     double farthest = 0;
     for (const RigidSample& s : sample_)
@@ -158,7 +164,9 @@ double SampleContact::find_touching(const NodeArray& position, const NodeArray& 
         const double light = kShare * surface_.lightest[index(closest.triangle)];
         const double bearable = kStiffnessShare / (dt_ * dt_) * light;
         const double wanted = law_.stiffness > 0 ? law_.stiffness * spacing_ * spacing_ : bearable;
-        const double k = std::fmin(wanted, bearable);
+        const double most = std::fmin(wanted, bearable);
+        const double k =
+            most / (1 + most * surface_.residual_at(closest.triangle, closest.at.weight));
         if (!state.bears) {
             state.stretch.setZero();
             state.stiffness = k;

@@ -242,6 +242,7 @@ HertzSpring point_spring(const SurfaceNodes& surface, int triangle, const Vec3& 
     const std::array<double, 3> coupling = corner_coupling(surface, triangle);
     for (int i = 0; i < 3; ++i)
         compliance += 2 * w[(i + 1) % 3] * w[(i + 2) % 3] * coupling[index(i)];
+    compliance -= surface.residual_at(triangle, w);
     // In a hollow a ball has to fit; two lines would meet in a line.
     smaller = std::fmax(smaller, kLeastCurvature * std::fmax(curvature, larger));
     larger = std::fmax(larger, smaller);

@@ -32,6 +32,10 @@ struct PointElasticity {
 /// What contact knows of a body's surface, from the rest shape. The first arrays run parallel, one
 /// entry a surface node.
 struct SurfaceNodes {
+    /// Of an edge: no curved surface that contact takes for one stands out farther between nodes.
+    /// (Ten facets round a circle: 0.08.)
+    static constexpr double kBulge = 0.1;
+
     SurfaceNodes() = default;
     /// @param mass  of every mesh node [kg].
     SurfaceNodes(const TetMesh& mesh, const Surface& surface, std::span<const double> mass);
@@ -47,11 +51,23 @@ struct SurfaceNodes {
     std::vector<double> lightest;             ///< least nodal mass of each triangle [kg]
 
     PointElasticity elastic; ///< empty: contacts are springs as stiff as the substep allows
+    /// What each mesh node yields along its normal that its motion doesn't show, because it moves
+    /// in few modes [m/N]; empty: nothing.
+    std::vector<double> residual;
 
     /// Triangles round a mesh node.
     std::span<const int> fan(int mesh_node) const noexcept {
         const auto n = static_cast<std::size_t>(mesh_node);
         return std::span(fan_).subspan(fan_start_[n], fan_start_[n + 1] - fan_start_[n]);
+    }
+
+    double residual_at(int of_triangle, const Vec3& weight) const noexcept {
+        double yields = 0;
+        for (std::size_t i = 0; !residual.empty() && i < 3; ++i)
+            yields += weight[static_cast<int>(i)] *
+                      residual[static_cast<std::size_t>(
+                          triangle[static_cast<std::size_t>(of_triangle)][i])];
+        return yields;
     }
 
 private:

@@ -39,37 +39,42 @@ void Body::use_default_substep() noexcept {
 }
 
 Vec3 Body::center_of_mass() const noexcept {
+    const NodeState& now = state();
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = 0; i < mass().size(); ++i)
-        sum += mass()[i] * state_.position[i];
+        sum += mass()[i] * now.position[i];
     return sum / total_mass_;
 }
 
 Vec3 Body::linear_momentum() const noexcept {
+    const NodeState& now = state();
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = 0; i < mass().size(); ++i)
-        sum += mass()[i] * state_.velocity[i];
+        sum += mass()[i] * now.velocity[i];
     return sum;
 }
 
 Vec3 Body::angular_momentum() const noexcept {
+    const NodeState& now = state();
     Vec3 sum = Vec3::Zero();
     for (std::size_t i = 0; i < mass().size(); ++i)
-        sum += mass()[i] * state_.position[i].cross(state_.velocity[i]);
+        sum += mass()[i] * now.position[i].cross(now.velocity[i]);
     return sum;
 }
 
 double Body::kinetic_energy() const noexcept {
+    const NodeState& now = state();
     double sum = 0;
     for (std::size_t i = 0; i < mass().size(); ++i)
-        sum += mass()[i] * state_.velocity[i].squaredNorm();
+        sum += mass()[i] * now.velocity[i].squaredNorm();
     return sum / 2;
 }
 
-double Body::elastic_energy() const noexcept { return model_->energy(state_.position); }
+double Body::elastic_energy() const noexcept { return model_->energy(state().position); }
 
 void Body::move_to(const Vec3& center) noexcept {
     wake();
+    leave_modes();
     budget_.restart();
     const Vec3 offset = center - center_of_mass();
     for (std::size_t i = 0; i < state_.position.size(); ++i)
@@ -79,6 +84,7 @@ void Body::move_to(const Vec3& center) noexcept {
 
 void Body::rotate(const Quat& rotation) noexcept {
     wake();
+    leave_modes();
     budget_.restart();
     const Mat3 turn = rotation.toRotationMatrix();
     const Vec3 center = center_of_mass();
@@ -91,6 +97,7 @@ void Body::rotate(const Quat& rotation) noexcept {
 
 void Body::set_velocity(const Vec3& velocity) noexcept {
     wake();
+    leave_modes();
     budget_.restart();
     for (std::size_t i = 0; i < state_.velocity.size(); ++i)
         state_.velocity[i] = is_pinned(static_cast<int>(i)) ? Vec3::Zero() : velocity;
@@ -98,6 +105,7 @@ void Body::set_velocity(const Vec3& velocity) noexcept {
 
 void Body::add_spin(const Vec3& omega) noexcept {
     wake();
+    leave_modes();
     budget_.restart();
     const Vec3 center = center_of_mass();
     for (std::size_t i = 0; i < state_.velocity.size(); ++i)
@@ -110,6 +118,7 @@ void Body::hold(int node) noexcept {
     if (inverse_mass_[i] == 0)
         return;
     wake();
+    forget_modes();
     inverse_mass_[i] = 0;
     modes_stale_ = true;
     budget_.restart();
@@ -142,6 +151,7 @@ std::vector<int> Body::nail(std::span<const int> nodes) {
     std::vector<std::uint8_t> taken(mesh_.node.size());
     std::vector<int> all;
     wake();
+    forget_modes();
     modes_stale_ = true;
     budget_.restart();
     const auto take = [&](int node) {
@@ -164,6 +174,7 @@ std::vector<int> Body::nail(std::span<const int> nodes) {
 void Body::release(int node) noexcept {
     const auto i = static_cast<std::size_t>(node);
     wake();
+    forget_modes();
     inverse_mass_[i] = 1 / mass()[i];
     modes_stale_ = true;
     budget_.restart();
@@ -190,7 +201,7 @@ void Body::add_force(int node, const Vec3& force) noexcept {
 }
 
 void Body::fit_velocity(double dt) noexcept {
-    if (dt == last_dt_)
+    if (dt == last_dt_ || modes_)
         return;
     // A velocity half of another substep old would be a kick to every mode, largest for the
     // fastest: changing substeps would pump energy.
@@ -235,6 +246,12 @@ void Body::take_load(const Vec3& gravity) noexcept {
 }
 
 void Body::begin_substep(bool look) noexcept {
+    if (modes_) {
+        bearing_points_ = 0;
+        contacts_.clear();
+        looking_ = look;
+        return;
+    }
     std::copy_n(load_.data(), NodeArray::kStride * load_.size(), force_.data());
     const StrainExtremes now = integrator_->evaluate(*model_, state_, force_);
     note(now);
@@ -257,6 +274,10 @@ void Body::note(const StrainExtremes& now) noexcept {
 }
 
 void Body::advance(double dt) noexcept {
+    if (modes_) {
+        advance_ringing(dt);
+        return;
+    }
     const double before = contact_work(dt);
     const StrainExtremes met =
         integrator_->step(*model_, NodeInertia{inverse_mass_}, dt, state_, force_);
@@ -287,9 +308,11 @@ void Body::damp(double dt) noexcept {
 }
 
 void Body::end_step() noexcept {
-    relax_margin();
-    watch_inversion();
-    budget_.add_past_work(load_now() - load_at_look_);
+    if (!modes_) {
+        relax_margin();
+        watch_inversion();
+        budget_.add_past_work(load_now() - load_at_look_);
+    }
     if (!has_external_)
         return;
     external_.set_zero();
@@ -297,11 +320,13 @@ void Body::end_step() noexcept {
 }
 
 Aabb Body::aabb() noexcept {
-    Aabb box = Aabb::empty();
-    for (const int node : surface_.node)
-        box.include(state_.position[static_cast<std::size_t>(node)]);
-    // The pairs recorded now serve the whole step that follows.
-    box.grow(max_speed() * world_.last_step());
+    Aabb box = modes_ ? modes_->box() : Aabb::empty();
+    if (!modes_)
+        for (const int node : surface_.node)
+            box.include(state_.position[static_cast<std::size_t>(node)]);
+    // The pairs recorded now serve the whole step that follows. Between its nodes a bulge stands
+    // out.
+    box.grow(max_speed() * world_.last_step() + SurfaceNodes::kBulge * contact_nodes_.mean_edge);
     return box;
 }
 
@@ -317,7 +342,7 @@ void Body::on_pair(dGeomID other) noexcept {
 }
 
 int Body::on_ray(dGeomID ray, int flags, dContactGeom* contact, int skip) noexcept {
-    return collide_ray(geom_, ray, surface_.triangle, state_.position, flags, contact, skip);
+    return collide_ray(geom_, ray, surface_.triangle, state().position, flags, contact, skip);
 }
 
 void Body::on_destroyed() noexcept {
@@ -331,6 +356,8 @@ void Body::moved() noexcept {
 }
 
 double Body::max_speed() const noexcept {
+    if (modes_)
+        return modes_->motion().largest_speed();
     double fastest = 0;
     for (const int node : surface_.node)
         fastest = std::max(fastest, state_.velocity[static_cast<std::size_t>(node)].squaredNorm());

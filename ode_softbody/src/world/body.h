@@ -15,9 +15,12 @@
 #include "model/elastic_model.h"
 #include "model/solid.h"
 #include "world/energy_budget.h"
+#include "world/modal_tier.h"
 #include "world/rigid_pairs.h"
+#include "world/tier.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -88,7 +91,12 @@ public:
     /// A rigid geom is near in this step.
     void note_pair(dGeomID other) noexcept { on_pair(other); }
 
-    const NodeState& state() const noexcept { return state_; }
+    /// Brought up to date first where the body moves in modes.
+    const NodeState& state() const noexcept {
+        if (modes_ && modes_->stale())
+            modes_->refresh();
+        return state_;
+    }
     std::span<const double> mass() const noexcept { return model_->mass(); } ///< of each node [kg]
 
     double total_mass() const noexcept { return total_mass_; } ///< [kg]
@@ -133,6 +141,22 @@ public:
     /// 75 products with the stiffness matrix; allocates.
     double present_critical_step() const;
 
+    /// How its motion is to be computed, and how it is at present.
+    TierChoice tier_choice() const noexcept { return tier_choice_; }
+    void set_tier(TierChoice choice) noexcept;
+    /// Where it rings: as long a substep as can be, unless its nodes are watched.
+    void pace(bool watched) noexcept;
+    /// Substep while contact is near, whose nodes come at the other side at `speed` [m/s], [s].
+    double contact_pace(double speed) const noexcept;
+    bool rings() const noexcept { return modes_ != nullptr; } ///< it moves in its modes
+    /// nullptr while it doesn't.
+    const ModalMotion* modal_motion() const noexcept {
+        return modes_ ? &modes_->motion() : nullptr;
+    }
+    unsigned long tier_changes() const noexcept { return tier_changes_; }
+    /// Of the linear tier's waveform, as last estimated, relative; infinite before.
+    double linear_error() const noexcept { return linear_error_; }
+
     const ContactLaw& contact_law() const noexcept { return contact_law_; }
     void set_contact_law(const ContactLaw& law) noexcept { contact_law_ = law; }
     bool self_contact() const noexcept { return self_contact_; }
@@ -171,6 +195,7 @@ private:
     friend class RigidExchange;
     friend class SoftExchange;
     friend class Slumber;
+    friend class ModalTier;
 
     /// Takes over a mesh that has the nodes of the body's own first. @throws InputError
     void build(TetMesh mesh, const BodyForm& form, bool damped_by_modes);
@@ -205,6 +230,24 @@ private:
     /// it.
     void fit_velocity(double dt) noexcept;
     void take_load(const Vec3& gravity) noexcept;
+
+    // body_tier.cpp
+    bool may_ring() noexcept; ///< modes can be had
+    void choose_tier() noexcept;
+    /// Whether so many steps may bring a contact that is none of the gentle ones.
+    bool blow_is_near(double steps) noexcept;
+    void level_velocity() noexcept; ///< brings it to the positions' time
+    void enter_modes() noexcept;
+    void leave_modes() noexcept;  ///< the nodes take over
+    void forget_modes() noexcept; ///< supports have changed
+    std::shared_ptr<const ModalBasis> find_basis() noexcept;
+    double estimate_linear_error(ModalTier& modes) noexcept;
+    void begin_ringing_step(const Vec3& gravity) noexcept;
+    void advance_ringing(double dt) noexcept;
+    /// Inverse of the mass that contact meets at each mesh node [1/kg]; 0: held.
+    std::span<const double> contact_inverse_mass() const noexcept {
+        return modes_ ? modes_->inverse_mass() : std::span<const double>(inverse_mass_);
+    }
     /// force_ becomes all that acts but contact. @param look  whether this substep is looked at.
     void begin_substep(bool look) noexcept;
     void advance(double dt) noexcept; ///< by force_
@@ -319,8 +362,17 @@ private:
     bool asleep_ = false;
     bool auto_disable_ = false;
     RestLimits rest_limits_;
-    std::size_t place_ = 0;                     ///< among the world's bodies; Slumber's
-    double quiet_ = 0;                          ///< within rest_limits_ for so long [s]
+    std::size_t place_ = 0; ///< among the world's bodies; Slumber's
+    double quiet_ = 0;      ///< within rest_limits_ for so long [s]
+    TierChoice tier_choice_ = TierChoice::explicit_space;
+    std::unique_ptr<ModalTier> modes_;      ///< while it moves in them
+    std::unique_ptr<ModalTier> idle_modes_; ///< while it doesn't, once it did
+    bool modes_known_ = false;              ///< asked for since supports last changed
+    unsigned long tier_changes_ = 0;
+    double linear_error_ = std::numeric_limits<double>::infinity();
+    double thickness_ = 0;  ///< twice volume over surface [m]
+    double sampled_at_ = 0; ///< displacement at which the error was last estimated [m]
+    int unsampled_ = 0;     ///< steps since then
     std::unique_ptr<SoftSurface> soft_surface_; ///< made when it first meets a soft body
     std::unique_ptr<SoftVolume> soft_volume_;   ///< the same, under the volume penalty
     std::vector<dGeomID> pair_;                 ///< geoms near in this step

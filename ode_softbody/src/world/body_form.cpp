@@ -116,6 +116,7 @@ CurveReport Body::set_form(const BodyForm& form) {
 
 void Body::build(TetMesh mesh, const BodyForm& form, bool damped_by_modes) {
     const IntegratorKind& method = integrator_kind(form.integrator);
+    forget_modes();
     Surface surface = extract_surface(mesh);
     const std::vector<Solid> solids = stress_solids(damped_by_modes);
     auto model = make_model(form.model, mesh, solids);

@@ -17,6 +17,7 @@ void Body::wake() noexcept {
 void Body::fall_asleep() noexcept {
     if (asleep_ || stopped_)
         return;
+    leave_modes();
     asleep_ = true;
     bearing_points_ = 0;
     state_.velocity.set_zero();
@@ -29,6 +30,10 @@ void Body::fall_asleep() noexcept {
 
 void Body::watch_rest(double passed) noexcept {
     const double speed2 = rest_limits_.speed * rest_limits_.speed;
+    if (modes_) { // what vibrates so little hardly accelerates
+        quiet_ = modes_->motion().largest_speed() <= rest_limits_.speed ? quiet_ + passed : 0;
+        return;
+    }
     const double most2 = rest_limits_.acceleration * rest_limits_.acceleration;
     for (std::size_t i = 0; i < state_.velocity.size(); ++i) {
         const double w = is_explicit_ ? inverse_mass_[i] : 0;

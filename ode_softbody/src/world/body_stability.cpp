@@ -47,32 +47,43 @@ void Body::reset_watch(const std::string& law, double frequency) noexcept {
 
 void Body::begin_step(const Vec3& gravity) noexcept {
     stepped_ = true;
+    choose_tier();
+    in_budget_ = true;
+    failed_solve_ = false;
+    extremes_ = {};
+    checkpoint_.quiet = quiet_;
+    if (modes_) {
+        begin_ringing_step(gravity);
+        return;
+    }
     if (damped_by_modes_ && modes_stale_)
         find_damped_modes();
     checkpoint_.state = state_;
     checkpoint_.last_dt = last_dt_;
     checkpoint_.undamped = undamped_;
     checkpoint_.modal_pending = modal_damping_ ? modal_damping_->pending() : 0;
-    checkpoint_.quiet = quiet_;
     checkpoint_.budget = budget_;
-    extremes_ = {};
-    in_budget_ = true;
-    failed_solve_ = false;
     take_load(gravity);
 }
 
 void Body::roll_back() noexcept {
+    quiet_ = checkpoint_.quiet;
+    contacts_.clear();
+    if (modes_) {
+        modes_->take_back();
+        return;
+    }
     std::swap(state_, checkpoint_.state);
     last_dt_ = checkpoint_.last_dt;
     undamped_ = checkpoint_.undamped;
     if (modal_damping_)
         modal_damping_->set_pending(checkpoint_.modal_pending);
-    quiet_ = checkpoint_.quiet;
     budget_ = checkpoint_.budget;
-    contacts_.clear();
 }
 
 double Body::safe_substep() const noexcept {
+    if (modes_)
+        return modes_->pace();
     double dt = substep_;
     if (is_explicit_ && margin_ > 1)
         dt = std::min(dt, kSubstepSafety * longest_substep_ / margin_);
@@ -172,14 +183,14 @@ std::string Body::trouble() const {
 bool Body::take_care() noexcept {
     ++rollbacks_;
     quiet_steps_ = 0;
-    given_up_ = critical_step_ == 0 || caution_ >= kMostCaution;
+    given_up_ = critical_step_ == 0 || caution_ >= kMostCaution || modes_;
     if (!given_up_)
         caution_ *= 2;
     return !given_up_;
 }
 
 bool Body::adapt_margin() noexcept {
-    if (!is_explicit_)
+    if (!is_explicit_ || modes_)
         return false; // stretch takes nothing from its stability
     const double wanted = rung_above(extremes_.max_stretch);
     if (wanted <= margin_)
@@ -215,6 +226,7 @@ void Body::watch_inversion() noexcept {
 }
 
 void Body::stop() noexcept {
+    leave_modes();
     stopped_ = true;
     bearing_points_ = 0;
     state_.velocity.set_zero();

@@ -26,6 +26,10 @@ public:
     /// Whether on_substep() wants to be called; asked once a step, so that a world whose observers
     /// only watch steps hands out no views.
     virtual bool wants_substeps() const noexcept = 0;
+    /// Whether a body that moves in its modes may be shown as such (Body::modal_motion()), with
+    /// views that may be as far apart as a step: between two of them it rings undisturbed. Else its
+    /// nodes are brought up to date for this observer, at the rate that audio asks for.
+    virtual bool takes_modes() const noexcept { return false; }
     virtual void on_substep(const SubstepView& view) noexcept = 0;
     /// After the substeps of a step, before ODE's own. @param time  at the step's end [s].
     virtual void on_step(SoftWorld& world, double time) noexcept = 0;

@@ -45,7 +45,8 @@ void RigidExchange::begin_step(dWorldID world, std::span<const std::unique_ptr<B
             RigidShadow& shadow = shadow_[contact.shadow];
             if (contact.law->bearing())
                 shadow.set_softening(std::min(shadow.softening(), contact.law->softening()));
-            contact.law->begin_step(*shape, pair.law, body->inverse_mass_, body->contact_substep());
+            contact.law->begin_step(*shape, pair.law, body->contact_inverse_mass(),
+                                    body->contact_substep());
         }
     }
     std::erase_if(contact_, [](const Contact& contact) { return !contact.current; });
@@ -97,12 +98,56 @@ void RigidExchange::meet_rigid(double h, double dt) {
         rigid_.end_meeting([&](dBodyID body) { return index_of(body); }, shadow_);
 }
 
+void RigidExchange::look_ahead(bool first) noexcept {
+    // Nodes near a shape but not in it need no look at every substep.
+    constexpr int kPatience = 16;
+    // Each candidate's motion is summed from modes at every substep: the fewer the better.
+    constexpr double kReach = 1.5 * SurfaceNodes::kBulge;
+    const auto each = [&](auto visit) {
+        for (Contact& contact : contact_)
+            if (contact.body->rings())
+                visit(contact, *contact.body, *contact.body->modes_);
+    };
+    bool looked = first;
+    each([&](Contact& contact, Body&, ModalTier& modes) {
+        contact.idle = contact.law->bearing() ? 0 : contact.idle + 1;
+        if (contact.law->quiet_for() <= 0 && contact.idle >= kPatience) {
+            contact.idle = 0;
+            contact.law->look_soon();
+        }
+        if (!contact.law->is_look_due())
+            return;
+        modes.place_surface();
+        contact.law->set_reach(kReach);
+        contact.law->look(contact.body->state_.position, contact.body->state_.velocity,
+                          shadow_[contact.shadow]);
+        looked = true;
+    });
+    if (looked) {
+        each([](Contact&, Body&, ModalTier& modes) { modes.clear_near(); });
+        each([](Contact& contact, Body&, ModalTier& modes) {
+            contact.law->collect_nodes(modes.near());
+        });
+        each([](Contact&, Body&, ModalTier& modes) { modes.settle_near(); });
+    }
+    each([](Contact& contact, Body& body, ModalTier& modes) {
+        const double pace = body.contact_pace(contact.law->closing_speed());
+        modes.set_pace(std::min(modes.pace(), std::max(contact.law->quiet_for(), pace)));
+    });
+}
+
 ContactTally RigidExchange::add_forces(double dt) noexcept {
     ContactTally sum;
     bool bears = false;
     bool drags = rigid_.size() != 0;
     for (Contact& contact : contact_) {
         Body& body = *contact.body;
+        if (body.rings() && contact.law->quiet_for() >= dt) {
+            contact.law->pass(dt);
+            continue;
+        }
+        if (body.rings())
+            body.modes_->place_near();
         sum.tests += contact.law->find(body.state_.position, body.state_.velocity,
                                        shadow_[contact.shadow], dt);
         if (!contact.law->is_touching())
@@ -173,7 +218,7 @@ double RigidExchange::sweep(double dt) noexcept {
 }
 
 TouchForces RigidExchange::forces_on(Body& body, double dt) noexcept {
-    return {body.inverse_mass_, body.state_.velocity, {body.force_, &body.contacts_}, dt};
+    return {body.contact_inverse_mass(), body.state_.velocity, {body.force_, &body.contacts_}, dt};
 }
 
 void RigidExchange::advance(double dt) noexcept {

@@ -33,6 +33,10 @@ public:
     /// Adds contact forces to the bodies' forces and their reactions to the shadows.
     ContactTally add_forces(double dt) noexcept;
 
+    /// Before a substep: looks for what may touch bodies that ring, and slows their pace while
+    /// something may. @param first  of a step
+    void look_ahead(bool first) noexcept;
+
     /// Moves the shadows on.
     void advance(double dt) noexcept;
 
@@ -68,6 +72,7 @@ private:
         std::unique_ptr<NodeContact> law;
         std::size_t shadow;  ///< index into shadow_
         bool current = true; ///< met in this step
+        int idle = 0;        ///< substeps without a touch, of a body that rings
     };
 
     void lay_aside_sleepers();

@@ -81,12 +81,25 @@ void SoftExchange::merge_pairs() {
         }
 }
 
+void SoftExchange::look_ahead() noexcept {
+    for (const Contact* contact : active_)
+        for (Body* body : {contact->pair.a, contact->pair.b})
+            if (body->rings())
+                body->modes_->set_pace(
+                    std::min(body->modes_->pace(), body->contact_pace(body->max_speed())));
+}
+
 SoftContactTally SoftExchange::add_forces(double dt) {
     SoftContactTally sum;
     ++substep_;
+    for (const Contact* contact : active_)
+        for (Body* body : {contact->pair.a, contact->pair.b})
+            if (body->rings())
+                body->modes_->place_surface();
     for (const Contact* contact : active_) {
         const auto side = [&](Body& body) {
-            const std::span<const double> inverse_mass = body.moves() ? body.inverse_mass_ : held_;
+            const std::span<const double> inverse_mass =
+                body.moves() ? body.contact_inverse_mass() : std::span<const double>(held_);
             return SoftSide{body.state_.position,
                             body.state_.velocity,
                             inverse_mass,

@@ -26,6 +26,8 @@ public:
     void begin_step(std::span<const std::unique_ptr<Body>> bodies, bool again);
 
     /// Adds contact forces to the bodies' forces.
+    /// Before a substep: slows bodies that ring and may meet others.
+    void look_ahead() noexcept;
     SoftContactTally add_forces(double dt);
 
     SoftContactMethod method() const noexcept { return method_; }

@@ -170,22 +170,56 @@ double SoftWorld::common_substep(double h) const noexcept {
     return h / std::ceil(h / least * (1 - kRounding));
 }
 
+bool SoftWorld::all_ring() const noexcept {
+    return std::all_of(body_.begin(), body_.end(),
+                       [](const auto& b) { return b->rings() || !b->moves(); });
+}
+
+double SoftWorld::next_substep(double h, double done) const noexcept {
+    if (!any_rings_ || !all_ring())
+        return common_substep(h - done);
+    const double least = common_substep(h);
+    constexpr double kSlack = 1e-9; // of a substep: `done` is a sum of such
+    for (double dt = h;; dt /= 2)
+        if (dt <= least * (1 + kSlack)) {
+            const double before = done / dt;
+            if (std::fabs(before - std::round(before)) < kSlack * std::fmax(1.0, before))
+                return dt;
+        }
+}
+
+void SoftWorld::look_ahead(bool first) noexcept {
+    if (!any_rings_)
+        return;
+    for (const auto& body : body_)
+        if (body->rings())
+            body->pace(nodes_watched_);
+    exchange_.look_ahead(first);
+    soft_exchange_.look_ahead();
+}
+
 bool SoftWorld::advance(double h, bool again) noexcept {
     if (none_moves(body_))
         return true;
-    const double first = common_substep(h);
-    attachments_.announce(exchange_);
-    exchange_.begin_step(world_, body_, h, first);
-    attachments_.begin_step(exchange_, h, first);
-    soft_exchange_.begin_step(body_, again);
     dVector3 g;
     dWorldGetGravity(world_, g);
     for (const auto& body : body_)
         if (body->moves())
             body->begin_step({g[0], g[1], g[2]});
+    any_rings_ = std::any_of(body_.begin(), body_.end(), [](const auto& b) { return b->rings(); });
+    nodes_watched_ =
+        any_rings_ && std::any_of(observer_.begin(), observer_.end(), [](const auto& o) {
+            return o && o->wants_substeps() && !o->takes_modes();
+        });
+    const double first = common_substep(h);
+    attachments_.announce(exchange_);
+    exchange_.begin_step(world_, body_, h, first);
+    attachments_.begin_step(exchange_, h, first);
+    soft_exchange_.begin_step(body_, again);
     double done = 0;
+    look_ahead(true);
     while (done < h) {
-        const double dt = common_substep(h - done);
+        const double dt = next_substep(h, done);
         const long substeps = std::lround((h - done) / dt);
         for (const auto& body : body_)
             if (body->moves())
@@ -225,7 +259,8 @@ long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
                 if (look && body->auto_disable())
                     body->watch_rest(static_cast<double>(i - looked) * dt);
                 body->advance(dt);
-                stats_.element_steps += body->mesh().element_count();
+                stats_.element_steps += body->rings() ? 0 : body->mesh().element_count();
+                stats_.modal_substeps += body->rings();
                 ++stats_.body_substeps;
             }
         attachments_.follow(exchange_);
@@ -236,6 +271,12 @@ long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
             return 0;
         if (observed)
             show_substep(start + static_cast<double>(i) * dt, dt);
+        if (any_rings_ && i < substeps) {
+            look_ahead(false);
+            const double wanted = common_substep(static_cast<double>(substeps) * dt);
+            if (wanted < 0.99 * dt || (wanted > 3.99 * dt && all_ring()))
+                return i;
+        }
         if (look && std::any_of(body_.begin(), body_.end(),
                                 [](const auto& b) { return b->moves() && b->adapt_margin(); }))
             return i;

@@ -5,6 +5,7 @@
 #include "mesh/tet_mesh.h"
 #include "model/solid.h"
 #include "world/attachments.h"
+#include "world/basis_cabinet.h"
 #include "world/body.h"
 #include "world/observer.h"
 #include "world/other_spaces.h"
@@ -30,6 +31,7 @@ struct WorldStats {
     unsigned long soft_looks = 0;
     unsigned long soft_tests = 0;
     unsigned long body_substeps = 0;
+    unsigned long modal_substeps = 0; ///< of them, in modes
     unsigned long observer_calls = 0;
     double seconds = 0;          ///< time in substeps, observers included [s]
     double observer_seconds = 0; ///< time in observers [s]
@@ -97,6 +99,8 @@ public:
 
     Attachments& attachments() noexcept { return attachments_; }
 
+    BasisCabinet& basis_cabinet() noexcept { return bases_; }
+
     double last_step() const noexcept { return last_step_; } ///< [s]; 0 before the first
 
     /// The rigid side of the present step.
@@ -115,6 +119,12 @@ private:
     void meet(double h) noexcept;
     /// The substep that suits all bodies that move, dividing h [s].
     double common_substep(double h) const noexcept;
+    /// The same from `done` on of a step of h, where every body may take what it likes: a power of
+    /// two to the step, so that few lengths are met.
+    double next_substep(double h, double done) const noexcept;
+    /// Finds for how long bodies in modes ring undisturbed, and paces them.
+    void look_ahead(bool first) noexcept;
+    bool all_ring() const noexcept; ///< of those that move
     /// Soft bodies, contacts and observers for h seconds. @return false when a body went unstable:
     /// its substep is then shortened, or it is stopped, and everything is as it was before the call
     /// but for what observers have seen. The rigid bodies' side is made anew from ODE's bodies,
@@ -155,6 +165,9 @@ private:
     RigidExchange exchange_;
     Attachments attachments_;
     SoftExchange soft_exchange_;
+    BasisCabinet bases_;
+    bool any_rings_ = false;     ///< in this step
+    bool nodes_watched_ = false; ///< by observers that take no modes
     Slumber slumber_;
     std::vector<std::unique_ptr<Body>> body_;
     std::vector<std::unique_ptr<Observer>> observer_;      ///< null: removed while busy

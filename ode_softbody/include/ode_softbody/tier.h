@@ -1,0 +1,48 @@
+/** @file
+ * How a soft body's motion is computed: node by node, or in its vibration modes. Conventions:
+ * softbody.h, which includes this.
+ *
+ * In modes a body is a rigid frame with small vibrations in it, each carried over any time by its
+ * exact solution. That costs about a thousandth of the explicit tier, and nothing between contacts.
+ * It is right as far as vibrations are small against the body's thickness, and it knows no
+ * frequency above 22 kHz; what a body yields to contact beyond these is kept (residual
+ * flexibility). Both tiers move on the same elements with the same masses, so that pitch and decay
+ * stay when a body changes tier; momentum is handed over exactly.
+ */
+#ifndef ODE_SOFTBODY_TIER_H
+#define ODE_SOFTBODY_TIER_H
+
+#include <ode_softbody/softbody.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Chooses between:
+ * "explicit"  every node, substep by substep: any strain (default)
+ * "modal"     modes wherever they can be had: a body of one piece, free or held fast by pins, with
+ *             at most 500 modes up to 22 kHz, and nailed to no rigid body; else explicit
+ * "auto"      modes while the waveform is expected within 2.5 % of the explicit one's, else
+ *             explicit; the body changes when it isn't in contact
+ * Takes effect with the next step. Modes are found once (fractions of a second to seconds), shared
+ * by like bodies and kept in the cache that dSoftModesOptions names.
+ * @return 0 for an unknown name, after listing the known ones. */
+DSOFT_API int dSoftBodySetTier(dSoftBodyID body, const char* name);
+/** The name chosen. */
+DSOFT_API const char* dSoftBodyGetTier(dSoftBodyID body);
+
+/** Start with struct_size = sizeof(dSoftTierStatus). */
+typedef struct dSoftTierStatus {
+    unsigned struct_size;
+    const char* tier;     /**< at present: "explicit" or "modal"; NULL-terminated, static */
+    int modes;            /**< that it moves in; 0 in the explicit tier */
+    dReal waveform_error; /**< of modes, as last estimated, relative; infinite when never */
+    int changes;          /**< of tier, since creation */
+} dSoftTierStatus;
+DSOFT_API int dSoftBodyGetTierStatus(dSoftBodyID body, dSoftTierStatus* status);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,48 @@
+#include <ode_softbody/tier.h>
+
+#include "api/boundary.h"
+#include "api/editing.h"
+#include "api/handles.h"
+#include "api/versioned.h"
+
+#include <algorithm>
+#include <iterator>
+
+using namespace ode::soft;
+
+int dSoftBodySetTier(dSoftBodyID id, const char* name) {
+    require_id(name, __func__);
+    Body* body = live(id, __func__);
+    if (!body || !may_edit(body->world(), __func__))
+        return 0;
+    return guarded(__func__, 0, [&] {
+        const auto found = std::find_if(std::begin(kTierNames), std::end(kTierNames),
+                                        [&](const TierName& t) { return t.name == name; });
+        if (found == std::end(kTierNames))
+            throw InputError(
+                format("there is no tier \"%s\"; known are explicit, modal, auto", name));
+        body->set_tier(found->choice);
+        return 1;
+    });
+}
+
+const char* dSoftBodyGetTier(dSoftBodyID id) {
+    const Body* body = live(id, __func__);
+    if (!body)
+        return nullptr;
+    return std::find_if(std::begin(kTierNames), std::end(kTierNames),
+                        [&](const TierName& t) { return t.choice == body->tier_choice(); })
+        ->name.data();
+}
+
+int dSoftBodyGetTierStatus(dSoftBodyID id, dSoftTierStatus* status) {
+    Body* body = live(id, __func__);
+    if (!body)
+        return 0;
+    dSoftTierStatus all{};
+    all.tier = body->rings() ? "modal" : "explicit";
+    all.modes = body->rings() ? static_cast<int>(body->modal_motion()->basis().modes) : 0;
+    all.waveform_error = body->linear_error();
+    all.changes = static_cast<int>(body->tier_changes());
+    return copy_out(__func__, all, status);
+}

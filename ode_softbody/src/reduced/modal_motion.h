@@ -1,0 +1,89 @@
+#pragma once
+
+#include "couple/node_forces.h"
+#include "integrate/node_state.h"
+#include "reduced/modal_basis.h"
+#include "reduced/oscillators.h"
+
+#include <array>
+#include <memory>
+#include <span>
+
+namespace ode::soft {
+
+/// A body as a frame that moves like a rigid body and small vibrations in it:
+///
+///     x = c + R (X + Phi q),   v = c' + w x (x - c) + R Phi q'.
+struct ModalState {
+    Vec3 center = Vec3::Zero();        ///< of mass; of a held body of its frame [m]
+    Vec3 velocity = Vec3::Zero();      ///< [m/s]
+    Quat turn = Quat::Identity();      ///< from the body's frame to the world's
+    Vec3 spin_momentum = Vec3::Zero(); ///< angular momentum about the centre, world [kg m^2/s]
+    AlignedVector<double> amplitude;   ///< q [kg^1/2 m]
+    AlignedVector<double> rate;        ///< q' [kg^1/2 m/s]
+};
+
+/// The motion of a body in its modes, exact as far as it is linear.
+///
+/// The frame is the one in which vibrations carry no momentum to first order (a "mean axis" or
+/// Buckens frame; J. R. Canavin and P. W. Likins, J. Spacecraft Rockets 14, 1977). Linear and
+/// angular momentum are kept as such, so that nothing is lost between modes and nodes. A spin
+/// stretches the body (centrifugal force on each mode) and mixes modes of like frequency
+/// (gyroscopic coupling), which turns the pattern of a ringing bowl.
+class ModalMotion {
+public:
+    explicit ModalMotion(std::shared_ptr<const ModalBasis> basis);
+
+    const ModalBasis& basis() const noexcept { return *basis_; }
+    const std::shared_ptr<const ModalBasis>& shared_basis() const noexcept { return basis_; }
+    const ModalState& state() const noexcept { return state_; }
+    void set_state(const ModalState& state) noexcept { state_ = state; } ///< of this basis
+
+    /// Takes over the motion of nodes whose velocity is that of the positions' time. What is in no
+    /// mode is lost, momentum is not. @param held  nodes that tell the frame; none: all do.
+    /// @return energy of what is lost, as if half of it were kinetic [J].
+    double take(const NodeState& nodes, std::span<const int> held) noexcept;
+    /// Puts all nodes where they are, with the velocities that have this momentum exactly.
+    void give(NodeState& nodes) const noexcept;
+    /// Some nodes, as contact sees them.
+    void place(std::span<const int> nodes, NodeState& out) const noexcept;
+
+    /// Steady loads of the time to come. @param forces  on nodes, or null [N].
+    void set_load(const Vec3& gravity, const NodeArray* forces) noexcept;
+    /// An impulse: each force for dt [s] at the nodes' place() just taken.
+    void push(const ContactShare& forces, const NodeState& nodes, double dt) noexcept;
+    void advance(double dt) noexcept;
+
+    double vibration_energy() const noexcept; ///< [J]
+    double rigid_energy() const noexcept;     ///< [J]
+    /// Upper bounds over the body: of a node's displacement in the frame [m], of its speed [m/s].
+    double largest_displacement() const noexcept;
+    double largest_speed() const noexcept;
+    /// Largest displacement of any of some nodes, as far as it swings: sqrt(u^2 + (u'/w)^2) [m].
+    double displacement_envelope(std::span<const int> nodes) noexcept;
+    Vec3 spin() const noexcept; ///< world [rad/s]
+    /// Inverse of the mass that a push at a node along a direction of the body's frame meets
+    /// [1/kg].
+    double inverse_mass(std::size_t node, const Vec3& direction) const noexcept;
+
+private:
+    void fit_frame(const NodeArray& position, std::span<const int> held) noexcept;
+    void turn_by(const Vec3& spin, double dt) noexcept;
+    void fly(double dt) noexcept;                    ///< the frame
+    void stretch_by_spin(const Vec3& spin) noexcept; ///< into settled_
+    void mix(const Vec3& spin, double dt) noexcept;
+    int pieces(const Vec3& spin, double dt) const noexcept;
+
+    std::shared_ptr<const ModalBasis> basis_;
+    Oscillators oscillators_;
+    ModalState state_;
+    Mat3 inverse_inertia_ = Mat3::Zero();
+    Vec3 steady_force_ = Vec3::Zero();                   ///< on the whole body [N]
+    Vec3 steady_torque_ = Vec3::Zero();                  ///< about its centre [N m]
+    AlignedVector<double> load_;                         ///< on each mode, steady [N kg^-1/2]
+    mutable std::array<AlignedVector<float>, 2> single_; ///< scratch: what is spread over nodes
+    AlignedVector<double> settled_; ///< scratch: where the modes would come to rest
+    bool loaded_ = false;           ///< load_ isn't zero
+};
+
+} // namespace ode::soft

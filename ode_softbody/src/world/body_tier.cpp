@@ -1,0 +1,300 @@
+// Whether a body moves node by node or in its modes, and how it changes from one to the other.
+#include "base/error.h"
+#include "collide/rigid_shape.h"
+#include "mesh/jacobian.h"
+#include "modal/cache.h"
+#include "modal/modal_decay.h"
+#include "reduced/residual_flexibility.h"
+#include "world/body.h"
+#include "world/soft_world.h"
+
+#include <ode/objects.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ode::soft {
+namespace {
+
+constexpr double kAudible = 22000;      ///< [Hz]
+constexpr std::size_t kMostModes = 500; ///< a body with more is soft: it deforms rather than rings
+
+constexpr double kTolerance = 0.025; ///< of the waveform: see linear_error()
+constexpr double kWellWithin = 0.5;  ///< of the tolerance, before modes take over: hysteresis
+constexpr double kUrgent = 4;        ///< tolerances off: not even a contact is waited for
+constexpr int kSampled = 8;          ///< steps between estimates of the error
+constexpr double kGrown = 1.5;       ///< of the displacement, that asks for one at once
+
+// Relative error of a linear bowl's velocity over 50 ms against its non-linear run, by the largest
+// displacement in thicknesses: 1.3 for linear, 0.3 for quadratic elements.
+constexpr double kErrorOfLinear = 1.3;
+constexpr double kErrorOfQuadratic = 0.3;
+constexpr double kLeastError = 1.4e-3;
+
+// Contact in modes: 16 substeps to the period of the highest audible tone.
+constexpr double kContactPace = 1 / (16 * kAudible);
+// What lies or rolls has no blow to resolve: sound alone asks for its substep.
+constexpr double kGentlePace = 1 / (4 * kAudible);
+constexpr double kGentle = 0.1; ///< [m/s]
+constexpr double kEarly = 4;    ///< steps in which no blow may come, before modes take over
+
+std::vector<Vec3> rest_normals(const TetMesh& mesh, const SurfaceNodes& surface) {
+    std::vector<Vec3> out;
+    for (const int node : surface.node) {
+        Vec3 sum = Vec3::Zero();
+        for (const int t : surface.fan(node)) {
+            const auto& [a, b, c] = surface.triangle[static_cast<std::size_t>(t)];
+            const Vec3& corner = mesh.node[static_cast<std::size_t>(a)];
+            sum += (mesh.node[static_cast<std::size_t>(b)] - corner)
+                       .cross(mesh.node[static_cast<std::size_t>(c)] - corner);
+        }
+        out.push_back(sum.stableNormalized());
+    }
+    return out;
+}
+
+/// Of ODE's body; none: the world's.
+Pose pose_of(dBodyID body) {
+    Pose pose;
+    if (!body)
+        return pose;
+    pose.position = Eigen::Map<const Vec3>(dBodyGetPosition(body));
+    const dReal* r = dBodyGetRotation(body);
+    pose.rotation << r[0], r[1], r[2], r[4], r[5], r[6], r[8], r[9], r[10];
+    return pose;
+}
+
+/// Whether held nodes hold a body fast: three that are in no line.
+bool hold_fast(const TetMesh& mesh, std::span<const int> held) {
+    for (std::size_t i = 2; i < held.size(); ++i) {
+        const Vec3& a = mesh.node[static_cast<std::size_t>(held[0])];
+        const Vec3 one = mesh.node[static_cast<std::size_t>(held[1])] - a;
+        const Vec3 two = mesh.node[static_cast<std::size_t>(held[i])] - a;
+        if (one.cross(two).norm() > 1e-6 * one.norm() * two.norm())
+            return true;
+    }
+    return false;
+}
+
+} // namespace
+
+void Body::set_tier(TierChoice choice) noexcept {
+    tier_choice_ = choice;
+    unsampled_ = kSampled;
+    if (choice == TierChoice::explicit_space)
+        leave_modes();
+}
+
+std::shared_ptr<const ModalBasis> Body::find_basis() noexcept {
+    try {
+        ModalOptions options;
+        options.order = mesh_.order;
+        options.mass = MassKind::kLumped; // as the nodes move: a change of tier changes no pitch
+        options.estimate = false;
+        options.max_frequency = kAudible;
+        options.max_modes = kMostModes;
+        options.clamped = pinned_;
+        // A table of decays is the body's own: nothing to share.
+        const std::string key =
+            form_.damping_table.empty() ? content_hash(mesh_, solids_, options) : std::string();
+        return world_.basis_cabinet().get(key, [&] {
+            const ModalModel modes = cached_modes(mesh_, solids_, options);
+            if (modes.mode_count() == 0)
+                throw InputError("it has no vibration mode below 22 kHz");
+            if (!modes.complete)
+                throw InputError(format("it has more than %zu modes below 22 kHz: it is too "
+                                        "soft to be computed by them",
+                                        kMostModes));
+            if (modes.rigid_modes != (pinned_.empty() ? 6 : 0))
+                throw InputError(format("it has %d motions without strain: it is not one piece "
+                                        "that is free or held fast",
+                                        modes.rigid_modes));
+            std::vector<double> decay;
+            if (form_.damping_table.empty())
+                decay = modal_decays(mesh_, solids_, modes);
+            else
+                for (const double f : modes.frequency)
+                    decay.push_back(form_.damping_table.decay(f));
+            const std::vector<Vec3> normal = rest_normals(mesh_, contact_nodes_);
+            const std::vector<double> residual =
+                residual_flexibility(mesh_, solids_, options, modes, {contact_nodes_.node, normal});
+            return make_basis(modes, mesh_.node, mass(), decay, residual, !pinned_.empty());
+        });
+    } catch (const std::exception& e) {
+        if (tier_choice_ == TierChoice::modes)
+            report(format("a soft body of %zu nodes stays in the explicit tier: %s",
+                          mesh_.node.size(), e.what()));
+        return nullptr;
+    }
+}
+
+void Body::forget_modes() noexcept {
+    leave_modes();
+    idle_modes_.reset();
+    modes_known_ = false;
+    unsampled_ = kSampled;
+}
+
+bool Body::may_ring() noexcept {
+    if (!nailed_.empty() || (!pinned_.empty() && !hold_fast(mesh_, pinned_)))
+        return false;
+    if (modes_ || modes_known_)
+        return modes_ || idle_modes_;
+    modes_known_ = true;
+    if (const auto basis = find_basis()) {
+        idle_modes_ = std::make_unique<ModalTier>(basis, contact_nodes_,
+                                                  rest_normals(mesh_, contact_nodes_), state_);
+        double volume = 0, area = 0;
+        for (std::size_t e = 0; e < mesh_.element_count(); ++e)
+            volume += element_volume(mesh_, e);
+        for (const double a : contact_nodes_.area)
+            area += a;
+        thickness_ = 2 * volume / area;
+    }
+    return idle_modes_ != nullptr;
+}
+
+double Body::estimate_linear_error(ModalTier& modes) noexcept {
+    const double factor = mesh_.order == 1 ? kErrorOfLinear : kErrorOfQuadratic;
+    return kLeastError +
+           factor * modes.motion().displacement_envelope(contact_nodes_.node) / thickness_;
+}
+
+void Body::choose_tier() noexcept {
+    if (tier_choice_ == TierChoice::explicit_space)
+        return;
+    if (!may_ring()) {
+        leave_modes();
+        return;
+    }
+    if (tier_choice_ == TierChoice::modes) {
+        if (!modes_)
+            enter_modes();
+        return;
+    }
+    ++unsampled_;
+    if (modes_ && blow_is_near(1)) {
+        leave_modes();
+        return;
+    }
+    if (modes_) {
+        const double now = modes_->motion().largest_displacement();
+        if (unsampled_ < kSampled && now < kGrown * sampled_at_)
+            return;
+        unsampled_ = 0;
+        sampled_at_ = now;
+        linear_error_ = estimate_linear_error(*modes_);
+        if (linear_error_ > (bearing_points_ == 0 ? 1 : kUrgent) * kTolerance)
+            leave_modes();
+        return;
+    }
+    if (unsampled_ < kSampled || bearing_points_ != 0 || blow_is_near(kEarly))
+        return;
+    unsampled_ = 0;
+    level_velocity();
+    ModalMotion& motion = idle_modes_->motion();
+    const double lost = motion.take(state_, pinned_);
+    linear_error_ = estimate_linear_error(*idle_modes_);
+    if (linear_error_ > kWellWithin * kTolerance)
+        return;
+    // What is in no mode would be lost with the change.
+    constexpr double kShare = kWellWithin * kTolerance * kWellWithin * kTolerance;
+    if (lost > kShare * (motion.vibration_energy() + lost))
+        return;
+    sampled_at_ = motion.largest_displacement();
+    enter_modes();
+}
+
+bool Body::blow_is_near(double steps) noexcept {
+    if (rigid_pair_.empty())
+        return false;
+    if (modes_)
+        modes_->place_surface();
+    const double own = modes_ ? modes_->motion().largest_speed() : max_speed();
+    return std::any_of(rigid_pair_.begin(), rigid_pair_.end(), [&](const RigidPair& pair) {
+        const std::optional<RigidShape> shape = capture_shape(pair.geom);
+        if (!shape)
+            return false;
+        double speed = own;
+        if (shape->body) {
+            const Eigen::Map<const Vec3> v(dBodyGetLinearVel(shape->body));
+            const Eigen::Map<const Vec3> w(dBodyGetAngularVel(shape->body));
+            speed += v.norm() + w.norm() * shape->size.norm();
+        }
+        if (speed < kGentle)
+            return false;
+        if (shape->kind == ShapeKind::probed || shape->kind == ShapeKind::convex)
+            return true; // whose distance takes more to tell
+        const Pose pose = pose_of(shape->body);
+        const double reach =
+            steps * world_.last_step() * speed + SurfaceNodes::kBulge * contact_nodes_.mean_edge;
+        return std::any_of(contact_nodes_.node.begin(), contact_nodes_.node.end(), [&](int node) {
+            const Vec3 x = state_.position[static_cast<std::size_t>(node)];
+            return shape->distance_at(pose, x).distance < reach;
+        });
+    });
+}
+
+void Body::level_velocity() noexcept {
+    if (last_dt_ > 0) {
+        std::copy_n(load_.data(), NodeArray::kStride * load_.size(), force_.data());
+        contacts_.each([&](std::size_t n, const auto& f) { force_[n] += f; });
+        integrator_->end(*model_, NodeInertia{inverse_mass_}, last_dt_, state_, force_);
+    }
+    last_dt_ = 0;
+}
+
+void Body::enter_modes() noexcept {
+    level_velocity();
+    modes_ = std::move(idle_modes_);
+    modes_->motion().take(state_, pinned_);
+    modes_->moved();
+    contact_nodes_.residual = modes_->motion().basis().residual;
+    world_.exchange_.forget(*this);
+    force_.set_zero();
+    contacts_.clear();
+    undamped_ = 0;
+    ++tier_changes_;
+}
+
+void Body::leave_modes() noexcept {
+    if (!modes_)
+        return;
+    modes_->refresh();
+    idle_modes_ = std::move(modes_);
+    contact_nodes_.residual.clear();
+    world_.exchange_.forget(*this);
+    last_dt_ = 0;
+    budget_.restart();
+    ++tier_changes_;
+}
+
+void Body::begin_ringing_step(const Vec3& gravity) noexcept {
+    modes_->motion().set_load(gravity, has_external_ ? &external_ : nullptr);
+    modes_->keep();
+    modes_->clear_near();
+}
+
+void Body::advance_ringing(double dt) noexcept {
+    if (!contacts_.empty()) {
+        modes_->motion().push(contacts_, state_, dt);
+        contacts_.each([&](std::size_t n, const auto&) { force_[n].setZero(); });
+    }
+    modes_->motion().advance(dt);
+    modes_->moved();
+    if (!looking_)
+        return;
+    const double energy = modes_->motion().vibration_energy();
+    in_budget_ = std::isfinite(energy) && std::isfinite(modes_->motion().rigid_energy());
+}
+
+void Body::pace(bool watched) noexcept {
+    modes_->set_pace(watched ? kContactPace : std::numeric_limits<double>::infinity());
+}
+
+double Body::contact_pace(double speed) const noexcept {
+    return std::max(speed > kGentle ? kContactPace : kGentlePace, contact_substep());
+}
+
+} // namespace ode::soft

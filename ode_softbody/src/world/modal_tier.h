@@ -1,0 +1,66 @@
+#pragma once
+
+#include "collide/aabb.h"
+#include "couple/surface_nodes.h"
+#include "reduced/modal_motion.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace ode::soft {
+
+/// A body while it moves in its modes: what contact, observers and ODE see of it. Nodes are brought
+/// up to date only where and when somebody asks for them.
+class ModalTier {
+public:
+    /// @param nodes    of the body; borrowed for life, written by place() and refresh()
+    /// @param surface  borrowed for life
+    ModalTier(std::shared_ptr<const ModalBasis> basis, const SurfaceNodes& surface,
+              std::span<const Vec3> normal, NodeState& nodes);
+
+    ModalMotion& motion() noexcept { return motion_; }
+    const ModalMotion& motion() const noexcept { return motion_; }
+
+    bool stale() const noexcept { return stale_; } ///< nodes are older than the motion
+    void refresh() noexcept;                       ///< all of them, with all momentum
+    void place_surface() noexcept;
+    void place_near() noexcept; ///< those that contact looks at, unless they are up to date
+    void moved() noexcept { stale_ = near_stale_ = true; }
+
+    void clear_near() noexcept {
+        near_.clear();
+        near_stale_ = true;
+    }
+    std::vector<int>& near() noexcept { return near_; } ///< to add to; then settle_near()
+    void settle_near();
+
+    std::span<const double> inverse_mass() const noexcept { return inverse_mass_; }
+
+    /// No longer substep is wanted [s].
+    double pace() const noexcept { return pace_; }
+    void set_pace(double dt) noexcept { pace_ = dt; }
+
+    void keep() { kept_ = motion_.state(); }
+    void take_back() noexcept {
+        motion_.set_state(kept_);
+        moved();
+    }
+
+    /// Of all nodes, by the rest shape and the largest displacement.
+    Aabb box() const noexcept;
+
+private:
+    ModalMotion motion_;
+    const SurfaceNodes& surface_;
+    NodeState& nodes_;
+    std::vector<int> near_;
+    std::vector<double> inverse_mass_;
+    Aabb rest_box_;
+    double pace_ = 0;
+    bool stale_ = false;
+    bool near_stale_ = true;
+    ModalState kept_;
+};
+
+} // namespace ode::soft
