@@ -111,7 +111,7 @@ private:
             std::replace(c.begin(), c.end(), from, to);
             const Facet fresh(node_[at(c[0])], node_[at(c[1])], node_[at(c[2])]);
             constexpr double kTurn = 0.3;  // cosine
-            constexpr double kThin = 0.05; // area over the square of the size; even: 0.43
+            constexpr double kThin = 0.01; // area over the square of the size; even: 0.43
             if (fresh.normal.dot(old.normal) < kTurn ||
                 fresh.area < kThin * fresh.size() * fresh.size())
                 return false;
