@@ -77,9 +77,11 @@ void Listener::splat(const FlowBlock& block, bool ghost) noexcept {
         return;
     const SplatSurface surface{block.nodes,         block.position,
                                block.area,          block.softening,
-                               block.flow,          settings_->send_rate() / settings_->air.speed,
+                               block.flow,          block.lean,
+                               block.lean_flow,     settings_->send_rate() / settings_->air.speed,
                                splat_table().rows()};
-    const auto facing = static_cast<std::size_t>(radiation_facing(settings_->radiation));
+    const auto facing = static_cast<std::size_t>(
+        block.lean ? Facing::kLeaning : radiation_facing(settings_->radiation));
     const double delay = kernels().splat[facing](surface, target, count);
     for (int e = 0; e < count; ++e)
         line[e]->note_arrival(static_cast<double>(block.sample) + delay);
@@ -113,6 +115,8 @@ void Listener::send(const FacetBlock& block) noexcept {
             double s = f[0] * f[1] / distance; // P01 eq. 10
             if (facing == Facing::kCosine)
                 s *= cosine;
+            else if (settings_->radiation == Radiation::kKirchhoff)
+                s *= 1.0 + cosine;
             ear.paper->add(block.sample, distance * per_metre, s); // P01 eq. 11
         }
     }

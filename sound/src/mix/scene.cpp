@@ -63,7 +63,8 @@ Scene::Body& Scene::find(const void* body, std::span<const int> triangle) {
             return bodies_[hint_];
     std::unique_ptr<BodySource> source;
     if (settings_.sampling == Sampling::kSinc)
-        source = std::make_unique<SurfaceFlow>(triangle, settings_.rate);
+        source = std::make_unique<SurfaceFlow>(
+            triangle, settings_.rate, radiation_leaning(settings_.radiation), settings_.air.speed);
     else
         source = std::make_unique<PaperSurface>(triangle, settings_.rate,
                                                 settings_.air.density * settings_.air.speed,

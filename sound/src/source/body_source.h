@@ -14,6 +14,8 @@ struct FlowBlock {
     const double* area;      ///< area vectors, points [m^2], of about that time
     const double* softening; ///< square of each node's least distance [m^2]
     const double* flow;      ///< low-passed area . velocity [m^3/s]
+    const double* lean;      ///< points [-]; null: the same all round, see Lean
+    const double* lean_flow; ///< [m^3/s]
     double gain;             ///< 1, or a part while the source crosses over to another place
 };
 

@@ -18,10 +18,10 @@ constexpr double kLeastDistance = 1e-6; // of a node that bears no area [m]
 
 } // namespace
 
-SurfaceFlow::SurfaceFlow(std::span<const int> triangle, double rate)
+SurfaceFlow::SurfaceFlow(std::span<const int> triangle, double rate, Leaning leaning, double speed)
     : surface_(triangle), rate_(rate), grid_rate_(kOversampling * rate),
-      interval_(1.0 / (kGathersPerSample * rate)), history_(surface_.nodes(), 1),
-      fade_(surface_.nodes()), places_(surface_.nodes(), 1),
+      interval_(1.0 / (kGathersPerSample * rate)), leaning_(leaning), speed_(speed),
+      history_(surface_.nodes(), 1), fade_(surface_.nodes()), places_(surface_.nodes(), 1),
       last_(4 * static_cast<std::size_t>(surface_.nodes())), area_(last_.size()),
       area_seen_(last_.size()), softening_(last_.size() / 4), flow_(last_.size()) {}
 
@@ -45,6 +45,8 @@ void SurfaceFlow::wake(const SurfaceView& view, BlockSink& out) {
     if (state_ == State::kResting)
         rest_until(begin, out);
     rewind(view, view.dt);
+    if (!lean_)
+        lean_.emplace(leaning_, surface_, last_.data(), area_.data(), grid_rate_, speed_);
     adapt(view.dt);
     if (state_ == State::kSilent)
         start(begin);
@@ -72,6 +74,7 @@ void SurfaceFlow::adapt(double substep) {
 
 void SurfaceFlow::start(double time) {
     history_.clear();
+    lean_->reset();
     fade_.stop();
     // The kernel reaches back: outputs before the first interval hear of it.
     const std::int64_t now = static_cast<std::int64_t>(std::floor(time * grid_rate_));
@@ -229,13 +232,26 @@ void SurfaceFlow::give_off(BlockSink& out) {
                              flow_.data() + 3 * nodes};
     for (; next_ + 3 <= ready; next_ += 4) {
         const double first = static_cast<double>(next_) / grid_rate_;
-        if (!history_.low_pass(first, 1.0 / grid_rate_, stretch_, flow))
+        if (!history_.low_pass(first, 1.0 / grid_rate_, stretch_, flow)) {
+            lean_->reset();
             continue;
+        }
+        const bool leans = lean_->leans();
+        if (leans)
+            lean_->aim(places_.at(next_), area_.data());
         for (int j = 0; j < 4; ++j) {
             const std::int64_t sample = next_ + j;
             const double ghost = places_.ghost_share(sample);
-            FlowBlock block{sample,       surface_.nodes(),  places_.at(sample),
-                            area_.data(), softening_.data(), flow[j],
+            if (leans)
+                lean_->follow(flow[j]);
+            FlowBlock block{sample,
+                            surface_.nodes(),
+                            places_.at(sample),
+                            area_.data(),
+                            softening_.data(),
+                            flow[j],
+                            leans ? lean_->direction() : nullptr,
+                            leans ? lean_->flow() : nullptr,
                             1.0 - ghost};
             out.on_flow(block);
             if (ghost > 0.0) {

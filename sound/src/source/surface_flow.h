@@ -3,7 +3,10 @@
 #include "source/body_source.h"
 #include "source/flow_fade.h"
 #include "source/flow_history.h"
+#include "source/lean.h"
 #include "source/place_history.h"
+
+#include <optional>
 
 namespace ode::sound {
 
@@ -19,8 +22,10 @@ public:
     static constexpr int kMaxLag = 112;
     static constexpr int kOversampling = 2;
 
-    /// @param rate  audio rate [Hz].
-    SurfaceFlow(std::span<const int> triangle, double rate);
+    /// @param rate   audio rate [Hz].
+    /// @param speed  of sound [m/s], for what leans.
+    SurfaceFlow(std::span<const int> triangle, double rate, Leaning leaning = Leaning::kNone,
+                double speed = 343.0);
 
     bool push(const SurfaceView& view, BlockSink& out) override;
     void advance_to(double time, BlockSink& out) override;
@@ -59,6 +64,9 @@ private:
     double refreshed_ = 0.0;  ///< when the areas were taken [s]
     std::int64_t next_ = 0;   ///< grid sample that is given off next
 
+    Leaning leaning_;
+    double speed_;
+    std::optional<Lean> lean_; ///< from the first view on
     FlowHistory history_;
     FlowFade fade_;
     PlaceHistory places_;
