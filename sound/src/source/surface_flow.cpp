@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kGathersPerSample =
     8.0;                                // box filter: -0.08 dB at 20 kHz, first image above 360 kHz
+constexpr double kAreaSamples = 2.0;    // areas are steps of half the audio rate: inaudible
 constexpr double kMaxStretch = 16.0;    // substeps up to 167 us at 48 kHz are free of images
 constexpr double kCrossOver = 4e-3;     // after a jump [s]
 constexpr double kLeastDistance = 1e-6; // of a node that bears no area [m]
@@ -160,7 +161,7 @@ void SurfaceFlow::record(const SurfaceView& view, BlockSink& out) {
     if (fade_.is_active(begin))
         fade_.add(begin, view.time, volume);
     event_end_ = view.time;
-    if (view.time - refreshed_ + 0.5 * interval_ >= 1.0 / rate_)
+    if (view.time - refreshed_ + 0.5 * interval_ >= kAreaSamples / rate_)
         refresh_areas(view.time);
     give_off(out);
 }

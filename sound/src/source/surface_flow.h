@@ -14,8 +14,8 @@ namespace ode::sound {
 ///
 /// Every few substeps (about eight times an audio sample) each node's displacement since the last
 /// time is projected on its area vector: the volume swept. That is the box-filtered velocity,
-/// exactly, from a difference of positions. Area vectors are taken anew once an audio sample and
-/// extrapolated to the middle of the next, so that a turning body does not seem to breathe.
+/// exactly, from a difference of positions. Area vectors are taken anew every other audio sample
+/// and extrapolated to the middle of the next, so that a turning body does not seem to breathe.
 class SurfaceFlow final : public BodySource {
 public:
     /// Latest that a grid sample is given off after its own time [grid samples].
