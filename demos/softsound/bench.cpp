@@ -45,6 +45,10 @@ constexpr Benchmark kBenchmarks[] = {
     {"error-vs-time", "error_vs_time",
      "Waveform, pitch and decay error against run time, by integrator, element and step; some "
      "minutes"},
+    {"radiation", "radiation",
+     "Radiation models in dB against closed forms and finer boundary elements, ka 0.05 to 10; "
+     "three "
+     "minutes. Ends with 1 when a mark is missed"},
     {"stability", "stability",
      "The stress suite: what recovers, what is told, what is refused; two minutes. Ends with 1 "
      "when "

@@ -38,6 +38,18 @@ TEST_P(Pulsating, MonopoleMeetsClosedForm) {
     EXPECT_NEAR(decibel(heard / closed), 0.0, 0.35);
 }
 
+// p = rho c v on the surface makes j0(ka) + i j1(ka) of a point's wave.
+TEST_P(Pulsating, KirchhoffIsItsRule) {
+    const double ka = GetParam();
+    const double f = frequency_of(ka);
+    const double w = kTau * f;
+    const double point =
+        w * Air{}.density * kRadius * kRadius * (w * kRadius * kStroke) / kDistance;
+    const double rule = std::hypot(std::sph_bessel(0, ka), std::sph_bessel(1, ka));
+    const double heard = amplitude(Radiation::kKirchhoff, pulsate(kRadius, kStroke, f), f);
+    EXPECT_NEAR(decibel(heard / (point * rule)), 0.0, 0.2);
+}
+
 INSTANTIATE_TEST_SUITE_P(Ka, Pulsating, testing::Values(0.05, 0.2, 0.5, 1.0, 2.0));
 
 class PulsatingSmall : public testing::TestWithParam<double> {};
