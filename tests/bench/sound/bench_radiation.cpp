@@ -36,15 +36,6 @@ double worst(const Row& row, double up_to) {
     return most;
 }
 
-/// Of one look at the clock [s].
-double clock_cost() {
-    constexpr int kLooks = 2000;
-    const double begin = cpu_seconds();
-    for (int i = 1; i < kLooks; ++i)
-        cpu_seconds();
-    return (cpu_seconds() - begin) / kLooks;
-}
-
 /// Amplitude at the ear for unit acceleration, and CPU time of a substep.
 std::pair<double, double> through_the_path(const RadiatingBody& body, Radiation radiation,
                                            double frequency) {
@@ -67,23 +58,31 @@ std::pair<double, double> through_the_path(const RadiatingBody& body, Radiation 
     const double begin = 0.03; // the start has passed the ear
     const double end = begin + std::max(0.02, 4.0 / frequency);
     const auto steps = static_cast<long>((end + 0.01) / kDt);
-    double cost = 0.0;
-    const double clock = clock_cost();
-    for (long n = 1; n <= steps; ++n) {
-        const double t = static_cast<double>(n) * kDt;
-        const double s = stroke * std::sin(w * t), v = stroke * w * std::cos(w * t);
+    const auto move = [&](double t) {
+        const double swing = stroke * std::sin(w * t), v = stroke * w * std::cos(w * t);
         for (std::size_t i = 0; i < nodes; ++i)
             for (std::size_t k = 0; k < 3; ++k) {
                 const double shape = body.shape[3 * i + k];
-                position[4 * i + k] = body.mesh.node[i][static_cast<Eigen::Index>(k)] + shape * s;
+                position[4 * i + k] =
+                    body.mesh.node[i][static_cast<Eigen::Index>(k)] + shape * swing;
                 velocity[4 * i + k] = shape * v;
             }
-        const double before = n > 1 ? cpu_seconds() : 0.0;
+    };
+    const auto timed = [&](auto&& substep) { // but for the first, which makes room
+        substep(1);
+        const double begun = cpu_seconds();
+        for (long n = 2; n <= steps; ++n)
+            substep(n);
+        return cpu_seconds() - begun;
+    };
+    const double whole = timed([&](long n) {
+        const double t = static_cast<double>(n) * kDt;
+        move(t);
         scene.push(&body, triangle, {t, kDt, position.data(), velocity.data(), 4});
         if (n % 2000 == 0)
             scene.end_step(t);
-        cost += n > 1 ? cpu_seconds() - before - clock : 0.0;
-    }
+    });
+    const double cost = whole - timed([&](long n) { move(static_cast<double>(n) * kDt); });
     scene.end_step(static_cast<double>(steps) * kDt);
     const std::vector<double>& all = tape->ear[0];
     const auto at = [&](double t) {
