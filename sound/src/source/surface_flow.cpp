@@ -14,6 +14,7 @@ constexpr double kGathersPerSample =
     8.0;                                // box filter: -0.08 dB at 20 kHz, first image above 360 kHz
 constexpr double kAreaSamples = 2.0;    // areas are steps of half the audio rate: inaudible
 constexpr double kMaxStretch = 16.0;    // substeps up to 167 us at 48 kHz are free of images
+constexpr double kEven = 0.02;          // intervals are of equal length
 constexpr double kCrossOver = 4e-3;     // after a jump [s]
 constexpr double kLeastDistance = 1e-6; // of a node that bears no area [m]
 
@@ -148,6 +149,11 @@ void SurfaceFlow::record(const SurfaceView& view, BlockSink& out) {
                        last_.data(), std::clamp((at - begin) / duration, 0.0, 1.0), places_.at(o));
     }
     places_.set_newest(std::max(newest, places_.newest()));
+    const double window = 2.0 * StepKernel::kHalfWidth * stretch_ / grid_rate_;
+    if (std::abs(duration - last_length_) > kEven * duration)
+        uneven_until_ = view.time + 2.0 * window;
+    last_length_ = duration;
+    history_.set_sloped(view.time < uneven_until_ || interval_ > 1.0 / (kGathersPerSample * rate_));
     double* volume = history_.push(begin, view.time, false);
     kernel.gather(surface_.nodes(), surface_.body_node(), view.position, view.stride, area_.data(),
                   last_.data(), volume);

@@ -55,14 +55,16 @@ private:
     State state_ = State::kSilent;
     bool entering_ = false; ///< the next interval is the first after a break
 
-    double interval_;         ///< wanted between gathers [s]
-    double stretch_ = 1.0;    ///< of the low-pass, for bodies of long substeps
-    double seen_ = 0.0;       ///< end of the last substep [s]
-    double substep_ = 0.0;    ///< its length [s]
-    double event_end_ = 0.0;  ///< end of the last interval [s]
-    double rest_begin_ = 0.0; ///< [s]
-    double refreshed_ = 0.0;  ///< when the areas were taken [s]
-    std::int64_t next_ = 0;   ///< grid sample that is given off next
+    double interval_;           ///< wanted between gathers [s]
+    double stretch_ = 1.0;      ///< of the low-pass, for bodies of long substeps
+    double seen_ = 0.0;         ///< end of the last substep [s]
+    double substep_ = 0.0;      ///< its length [s]
+    double last_length_ = 0.0;  ///< of the last interval [s]
+    double uneven_until_ = 0.0; ///< intervals differed in length not long before [s]
+    double event_end_ = 0.0;    ///< end of the last interval [s]
+    double rest_begin_ = 0.0;   ///< [s]
+    double refreshed_ = 0.0;    ///< when the areas were taken [s]
+    std::int64_t next_ = 0;     ///< grid sample that is given off next
 
     Leaning leaning_;
     double speed_;
