@@ -49,7 +49,8 @@ DSOUND_API void dSoundWorldDestroy(dSoundWorldID world);
  *             "sinc" sampling the DC block acts once an ear, under "paper" on every triangle
  * Monopole: within 0.3 dB of a pulsating sphere for ka <= 10, 1.1 dB of a shaking one, 3 dB of a
  * bending bar (softsound bench radiation); nearer than a sixth of a wavelength a shaking body is
- * louder. Under "paper" sampling it carries no air. A change while sound is under way cuts that off.
+ * louder. Under "paper" sampling it carries no air. A change while sound is under way cuts that
+ * off.
  * @return 0 for an unknown name, after listing the known ones. */
 DSOUND_API int dSoundSetRadiation(dSoundWorldID world, const char* name);
 
@@ -61,6 +62,11 @@ DSOUND_API int dSoundSetSampling(dSoundWorldID world, const char* name);
 
 /** Air: density [kg/m^3] and speed of sound [m/s]; defaults 1.21 and 343 (20 C, 1 atm). */
 DSOUND_API int dSoundSetAir(dSoundWorldID world, dReal density, dReal speed);
+
+/** How loud a body is: a factor on its pressure, >= 0; default 1, 0 mutes it. Reached without a
+ * click in 5 ms. A muted body is not gathered, so that it costs nothing. Ends with the body. */
+DSOUND_API int dSoundSetBodyGain(dSoundWorldID world, dSoftBodyID body, dReal gain);
+DSOUND_API dReal dSoundGetBodyGain(dSoundWorldID world, dSoftBodyID body);
 
 /** Cost and level since creation. Start with struct_size = sizeof(dSoundStats). */
 typedef struct dSoundStats {
@@ -87,6 +93,21 @@ DSOUND_API int dSoundListenerSetOrientation(dSoundListenerID listener, const dVe
                                             const dVector3 up);
 /** Distance between the ears [m], >= 0; 0 makes both hear the same. */
 DSOUND_API int dSoundListenerSetEarDistance(dSoundListenerID listener, dReal distance);
+
+/** What a listener hears, since the last look. Start with struct_size = sizeof(dSoundLevel). */
+typedef struct dSoundLevel {
+    unsigned struct_size;
+    dReal peak[2];    /**< of the left and right ear, before the limiter [Pa] */
+    dReal rms[2];     /**< [Pa] */
+    dReal least_gain; /**< by which the limiter held sound down [-]; 1: not at all */
+} dSoundLevel;
+/** Reads the meters and sets them back: call it as often as they are to be drawn. */
+DSOUND_API int dSoundListenerGetLevel(dSoundListenerID listener, dSoundLevel* level);
+/** Keeps what sinks get below `ceiling` times full scale, both ears by one gain, with a look-ahead
+ * of 1.5 ms that is added to the latency. Meters show what was before. Off by default: files are
+ * floats.
+ * @param ceiling  above 0, e.g. 0.97; 0 for none. */
+DSOUND_API int dSoundListenerSetLimiter(dSoundListenerID listener, dReal ceiling);
 
 /** Sends what the listener hears to a sink, besides those it has. One sink serves one listener. */
 DSOUND_API int dSoundListenerAddSink(dSoundListenerID listener, dSoundSinkID sink);

@@ -24,6 +24,7 @@ struct FacetBlock {
     std::int64_t sample; ///< time * audio rate
     int facets;
     const double* facet; ///< kFields doubles each
+    double gain = 1.0;   ///< of the body
     /// pressure [Pa], area [m^2], centre x y z [m], unit normal x y z
     static constexpr int kFields = 8;
 };
