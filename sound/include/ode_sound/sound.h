@@ -131,6 +131,19 @@ DSOUND_API dSoundSinkID dSoundSinkCreateMemory(void);
  * bit). A path that cannot be written is refused here. A crash loses the last quarter second at
  * most. */
 DSOUND_API dSoundSinkID dSoundSinkCreateFile(const char* path);
+/** How a file is written. Start from dSoundFileDefault(). */
+typedef struct dSoundFile {
+    unsigned struct_size;
+    int bits; /**< of a sample: 32 (float, .wav only), 24 or 16 (dithered); 0 (default): 32 for
+                 .wav, 24 for .flac */
+    int note; /**< 1: JSON beside it, of the same name: unit, full scale, rate, events; default 0 */
+} dSoundFile;
+DSOUND_API dSoundFile dSoundFileDefault(void);
+/** dSoundSinkCreateFile() with a choice. */
+DSOUND_API dSoundSinkID dSoundSinkCreateFileAs(const char* path, const dSoundFile* file);
+/** Notes an event at the frame that the file sink gets next, for the JSON beside it.
+ * @return 0 for sinks without a note, after a message. */
+DSOUND_API int dSoundSinkMark(dSoundSinkID sink, const char* text);
 /** Plays live on OpenAL's default device, in a context of its own, from a thread of its own. A
  * simulation slower than real time is heard with faded gaps (dSoundStats.underruns). No device: a
  * message, and a null sink instead. */

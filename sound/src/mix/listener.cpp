@@ -185,6 +185,11 @@ bool Listener::add_sink(const std::shared_ptr<Sink>& sink) {
         return true;
     if (!sink->open({settings_->rate, kEars}))
         return false;
+    const bool pascals = settings_->radiation != Radiation::kPaper;
+    sink->calibrate({settings_->full_scale, pascals ? "Pa" : "Pa m",
+                     radiation_name(static_cast<int>(settings_->radiation)).data(),
+                     sampling_name(static_cast<int>(settings_->sampling)).data(),
+                     static_cast<double>(next_) / settings_->rate});
     sinks_.push_back(sink);
     return true;
 }
