@@ -45,6 +45,14 @@ constexpr Benchmark kBenchmarks[] = {
     {"error-vs-time", "error_vs_time",
      "Waveform, pitch and decay error against run time, by integrator, element and step; some "
      "minutes"},
+    {"radiation", "radiation",
+     "Radiation models in dB against closed forms and finer boundary elements, ka 0.05 to 10; "
+     "three "
+     "minutes. Ends with 1 when a mark is missed"},
+    {"audio", "audio",
+     "Response, aliases, distortion, Doppler shift, arrival and latency of the sound path; a "
+     "minute. "
+     "Ends with 1 when the default misses a mark"},
     {"stability", "stability",
      "The stress suite: what recovers, what is told, what is refused; two minutes. Ends with 1 "
      "when "

@@ -52,7 +52,7 @@ void add_stage(CLI::App& command, Stage& stage) {
         ->check(CLI::Range(1e-3, 3600.0))
         ->capture_default_str();
     command.add_option("--radiation", stage.radiation, "How motion becomes pressure")
-        ->check(CLI::IsMember({"monopole", "rayleigh", "paper"}))
+        ->check(CLI::IsMember({"monopole", "rayleigh", "paper", "kirchhoff", "transfer"}))
         ->capture_default_str();
     command.add_option("--sampling", stage.sampling, "How waves are sampled")
         ->check(CLI::IsMember({"sinc", "paper"}))

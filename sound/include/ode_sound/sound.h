@@ -35,13 +35,22 @@ DSOUND_API dSoundWorldID dSoundWorldCreate(dSoftWorldID world);
 DSOUND_API void dSoundWorldDestroy(dSoundWorldID world);
 
 /** How surface motion becomes pressure:
- * "monopole"  accelerations over all faces, rho/(4 pi) sum a dv_n/dt(t - R/c) / R  [Pa] (default)
+ * "monopole"  accelerations over all faces, rho/(4 pi) sum a dv_n/dt(t - R/c) / R  [Pa] (default),
+ *             with the air that a body carries along (its added mass), which makes sound directed.
+ *             Flow round the body is solved for when it is first seen: 0.1 s for 300 triangles and
+ *             more, once a body; an open surface goes without
+ * "kirchhoff" all faces, pressure rho c v_n on the surface, rho/(4 pi) (1 + cos) [Pa]: for bodies
+ *             large against the wavelength; a small one that shakes is 20 dB too loud
+ * "transfer"  boundary elements, mode by mode, for bodies that are solved by modes [Pa]; others are
+ *             heard by "monopole"
  * "rayleigh"  faces that look at the listener, baffled, rho/(2 pi)                 [Pa]; a face
  *             that turns away fades over cos = 0.05 .. -0.05, so that it doesn't click
  * "paper"     P01 equation 10 with its DC block: z v_n a cos(theta) / R            [Pa m]; under
  *             "sinc" sampling the DC block acts once an ear, under "paper" on every triangle
- * Monopole: within 0.2 dB of a pulsating sphere for ka <= 0.2, 3.6 dB low for an oscillating one
- * (no added mass). A change while sound is under way cuts that off.
+ * Monopole: within 0.3 dB of a pulsating sphere for ka <= 10, 1.1 dB of a shaking one, 3 dB of a
+ * bending bar (softsound bench radiation); nearer than a sixth of a wavelength a shaking body is
+ * louder. Under "paper" sampling it carries no air. A change while sound is under way cuts that
+ * off.
  * @return 0 for an unknown name, after listing the known ones. */
 DSOUND_API int dSoundSetRadiation(dSoundWorldID world, const char* name);
 
@@ -53,6 +62,11 @@ DSOUND_API int dSoundSetSampling(dSoundWorldID world, const char* name);
 
 /** Air: density [kg/m^3] and speed of sound [m/s]; defaults 1.21 and 343 (20 C, 1 atm). */
 DSOUND_API int dSoundSetAir(dSoundWorldID world, dReal density, dReal speed);
+
+/** How loud a body is: a factor on its pressure, >= 0; default 1, 0 mutes it. Reached without a
+ * click in 5 ms. A muted body is not gathered, so that it costs nothing. Ends with the body. */
+DSOUND_API int dSoundSetBodyGain(dSoundWorldID world, dSoftBodyID body, dReal gain);
+DSOUND_API dReal dSoundGetBodyGain(dSoundWorldID world, dSoftBodyID body);
 
 /** Cost and level since creation. Start with struct_size = sizeof(dSoundStats). */
 typedef struct dSoundStats {
@@ -80,6 +94,21 @@ DSOUND_API int dSoundListenerSetOrientation(dSoundListenerID listener, const dVe
 /** Distance between the ears [m], >= 0; 0 makes both hear the same. */
 DSOUND_API int dSoundListenerSetEarDistance(dSoundListenerID listener, dReal distance);
 
+/** What a listener hears, since the last look. Start with struct_size = sizeof(dSoundLevel). */
+typedef struct dSoundLevel {
+    unsigned struct_size;
+    dReal peak[2];    /**< of the left and right ear, before the limiter [Pa] */
+    dReal rms[2];     /**< [Pa] */
+    dReal least_gain; /**< by which the limiter held sound down [-]; 1: not at all */
+} dSoundLevel;
+/** Reads the meters and sets them back: call it as often as they are to be drawn. */
+DSOUND_API int dSoundListenerGetLevel(dSoundListenerID listener, dSoundLevel* level);
+/** Keeps what sinks get below `ceiling` times full scale, both ears by one gain, with a look-ahead
+ * of 1.5 ms that is added to the latency. Meters show what was before. Off by default: files are
+ * floats.
+ * @param ceiling  above 0, e.g. 0.97; 0 for none. */
+DSOUND_API int dSoundListenerSetLimiter(dSoundListenerID listener, dReal ceiling);
+
 /** Sends what the listener hears to a sink, besides those it has. One sink serves one listener. */
 DSOUND_API int dSoundListenerAddSink(dSoundListenerID listener, dSoundSinkID sink);
 /** Like dSoundListenerAddSink(), in place of those it has. NULL leaves none. */
@@ -102,6 +131,19 @@ DSOUND_API dSoundSinkID dSoundSinkCreateMemory(void);
  * bit). A path that cannot be written is refused here. A crash loses the last quarter second at
  * most. */
 DSOUND_API dSoundSinkID dSoundSinkCreateFile(const char* path);
+/** How a file is written. Start from dSoundFileDefault(). */
+typedef struct dSoundFile {
+    unsigned struct_size;
+    int bits; /**< of a sample: 32 (float, .wav only), 24 or 16 (dithered); 0 (default): 32 for
+                 .wav, 24 for .flac */
+    int note; /**< 1: JSON beside it, of the same name: unit, full scale, rate, events; default 0 */
+} dSoundFile;
+DSOUND_API dSoundFile dSoundFileDefault(void);
+/** dSoundSinkCreateFile() with a choice. */
+DSOUND_API dSoundSinkID dSoundSinkCreateFileAs(const char* path, const dSoundFile* file);
+/** Notes an event at the frame that the file sink gets next, for the JSON beside it.
+ * @return 0 for sinks without a note, after a message. */
+DSOUND_API int dSoundSinkMark(dSoundSinkID sink, const char* text);
 /** Plays live on OpenAL's default device, in a context of its own, from a thread of its own. A
  * simulation slower than real time is heard with faded gaps (dSoundStats.underruns). No device: a
  * message, and a null sink instead. */

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <vector>
 
@@ -70,6 +71,41 @@ int dSoundListenerSetEarDistance(dSoundListenerID listener, dReal distance) {
     }
     listener->listener->pose.ear_distance = distance;
     return 1;
+}
+
+int dSoundListenerGetLevel(dSoundListenerID listener, dSoundLevel* level) {
+    require_id(listener, "dSoundListenerGetLevel");
+    if (!level || level->struct_size < sizeof(unsigned)) {
+        dMessage(0,
+                 "dSoundListenerGetLevel: set struct_size to sizeof(dSoundLevel) before the call");
+        return 0;
+    }
+    const Listener::Level heard = listener->listener->take_level();
+    dSoundLevel all{};
+    all.struct_size = level->struct_size;
+    for (std::size_t e = 0; e < Listener::kEars; ++e) {
+        all.peak[e] = heard.ear[e].peak();
+        all.rms[e] = heard.ear[e].rms();
+    }
+    all.least_gain = heard.least_gain;
+    std::memcpy(level, &all, std::min<std::size_t>(level->struct_size, sizeof all));
+    return 1;
+}
+
+int dSoundListenerSetLimiter(dSoundListenerID listener, dReal ceiling) {
+    require_id(listener, "dSoundListenerSetLimiter");
+    return guarded("dSoundListenerSetLimiter", 0, [&] {
+        if (!std::isfinite(ceiling) || ceiling < 0.0) {
+            dMessage(
+                0,
+                "dSoundListenerSetLimiter: ceiling is %g of full scale; it must be above 0, or "
+                "0 for no limiter",
+                ceiling);
+            return 0;
+        }
+        listener->listener->set_limiter(ceiling);
+        return 1;
+    });
 }
 
 int dSoundListenerAddSink(dSoundListenerID listener, dSoundSinkID sink) {

@@ -6,6 +6,8 @@
 #include "sink/null_sink.h"
 #include "sink/openal_sink.h"
 
+#include <algorithm>
+#include <cstring>
 #include <memory>
 
 using namespace ode::sound;
@@ -35,6 +37,37 @@ dSoundSinkID dSoundSinkCreateMemory(void) {
 dSoundSinkID dSoundSinkCreateFile(const char* path) {
     require_id(path, __func__);
     return create(__func__, [path] { return std::make_shared<FileSink>(path); });
+}
+
+dSoundFile dSoundFileDefault(void) {
+    dSoundFile file{};
+    file.struct_size = sizeof file;
+    return file;
+}
+
+dSoundSinkID dSoundSinkCreateFileAs(const char* path, const dSoundFile* file) {
+    require_id(path, __func__);
+    require_id(file, __func__);
+    dSoundFile own = dSoundFileDefault();
+    std::memcpy(&own, file, std::min<std::size_t>(file->struct_size, sizeof own));
+    return create(__func__,
+                  [&] { return std::make_shared<FileSink>(path, own.bits, own.note != 0); });
+}
+
+int dSoundSinkMark(dSoundSinkID sink, const char* text) {
+    require_id(sink, __func__);
+    require_id(text, __func__);
+    const char* const function = __func__;
+    return guarded(function, 0, [&] {
+        auto* file = dynamic_cast<FileSink*>(sink->sink.get());
+        if (file && file->mark(text))
+            return 1;
+        dMessage(0,
+                 "%s: there is no note to this %s sink; make one with dSoundSinkCreateFileAs() "
+                 "and note 1",
+                 function, sink->sink->kind());
+        return 0;
+    });
 }
 
 dSoundSinkID dSoundSinkCreateOpenAL(void) {

@@ -89,6 +89,25 @@ int dSoundSetAir(dSoundWorldID world, dReal density, dReal speed) {
     });
 }
 
+int dSoundSetBodyGain(dSoundWorldID world, dSoftBodyID body, dReal gain) {
+    require_id(world, "dSoundSetBodyGain");
+    require_id(body, "dSoundSetBodyGain");
+    return guarded("dSoundSetBodyGain", 0, [&] {
+        if (!std::isfinite(gain) || gain < 0.0) {
+            dMessage(0, "dSoundSetBodyGain: gain is %g; it must be 0 (mute) or more", gain);
+            return 0;
+        }
+        world->world.scene().set_gain(body, gain);
+        return 1;
+    });
+}
+
+dReal dSoundGetBodyGain(dSoundWorldID world, dSoftBodyID body) {
+    require_id(world, "dSoundGetBodyGain");
+    require_id(body, "dSoundGetBodyGain");
+    return world->world.scene().gain(body);
+}
+
 int dSoundSetFullScale(dSoundWorldID world, dReal pressure) {
     require_id(world, "dSoundSetFullScale");
     return guarded("dSoundSetFullScale", 0, [&] {

@@ -17,7 +17,7 @@ using Ints [[gnu::vector_size(16)]] = std::int32_t;
 
 constexpr int kTaps = 16;
 constexpr int kBefore = 7;
-constexpr int kPhases = 256;
+constexpr int kPhases = 512;
 
 inline Lane load(const double* p) { return *reinterpret_cast<const Loose*>(p); }
 inline void store(double* p, const Lane& v) { *reinterpret_cast<Loose*>(p) = v; }
@@ -168,11 +168,31 @@ void mix(int nodes, int rows, const double* const* row, const double* weight, do
     }
 }
 
+void lean(int nodes, const double* area, const double* along_area, const double* point,
+          const double* centre, const double* along_way, double* out) {
+    const Lane middle = load(centre);
+    for (int i = 0; i < nodes; ++i)
+        store(out + 4 * i, without_w(fill(along_area[i]) * load(area + 4 * i) +
+                                     fill(along_way[i]) * (load(point + 4 * i) - middle)));
+}
+
+void high_pass(int nodes, const double* in, double keep, double pass, double* before, double* after,
+               double extra, const double* share, double* out) {
+    const Lane k = fill(keep), p = fill(pass), e = fill(extra);
+    for (int i = 0; i < nodes; i += 4) {
+        const Lane now = load(in + i);
+        const Lane passed = k * load(after + i) + p * (now - load(before + i));
+        store(before + i, now);
+        store(after + i, passed);
+        store(out + i, passed + e * load(share + i));
+    }
+}
+
 /// Retarded times and weighted values of four nodes at one ear.
 struct Arrivals {
     std::int64_t cell[4]; ///< of the ring, where the first tap goes
-    std::int64_t row[4];  ///< offset in the splat table of the row nearest to the fraction
-    double weight[3][4];  ///< of the rows before it, at it and behind it
+    std::int64_t row[4];  ///< offset in the splat table of the row that the fraction rounds down to
+    double weight[2][4];  ///< of that row and of the next
 };
 
 /// What all nodes have in common at one ear.
@@ -230,7 +250,15 @@ inline void arrive(const SplatSurface& surface, const Aim& ear, int i, Lane& lat
     const Lane distance = (ahead + root(ahead * ahead + ear.rest * square)) * ear.scale;
 
     Lane value = ear.gain * load(surface.flow + i) / distance;
-    if constexpr (kFacing != Facing::kAll) {
+    if constexpr (kFacing == Facing::kLeaning) {
+        Lane lean[4];
+        for (int k = 0; k < 4; ++k)
+            lean[k] = offset[k] * load(surface.lean + 4 * (i + k));
+        const Lane per_distance = fill(1.0) / distance;
+        value = ear.gain * per_distance *
+                (load(surface.flow + i) + load(surface.lean_flow + i) * per_distance *
+                                              sums(lean[0], lean[1], lean[2], lean[3]));
+    } else if constexpr (kFacing != Facing::kAll) {
         Lane area[4];
         for (int k = 0; k < 4; ++k)
             area[k] = load(surface.area + 4 * (i + k));
@@ -252,24 +280,19 @@ inline void arrive(const SplatSurface& surface, const Aim& ear, int i, Lane& lat
 
     const Ints whole = truncate(when);
     const Lane place = (when - widen(whole)) * fill(kPhases);
-    const Ints phase = truncate(place + fill(0.5));
-    // Lagrange's parabola through three rows.
-    const Lane u = place - widen(phase);
-    const Lane half = fill(0.5) * u * value;
-    store(out.weight[0], half * (u - fill(1.0)));
-    store(out.weight[1], value - u * u * value);
-    store(out.weight[2], half * (u + fill(1.0)));
+    const Ints phase = truncate(place);
+    const Lane next = (place - widen(phase)) * value;
+    store(out.weight[0], value - next);
+    store(out.weight[1], next);
     store_bits(out.cell, (ear.origin + __builtin_convertvector(whole, Bits)) & ear.mask);
     store_bits(out.row, __builtin_convertvector(phase, Bits) * kTaps);
 }
 
 /// One value into the ring of an ear.
-inline void put(double* cell, const double* row, double before, double at, double behind) {
+inline void put(double* cell, const double* row, double at, double next) {
     for (int j = 0; j < kTaps; j += kWide)
-        store_wide(cell + j,
-                   (load_wide(cell + j) + fill_wide(before) * load_wide(row - kTaps + j)) +
-                       (fill_wide(at) * load_wide(row + j) +
-                        fill_wide(behind) * load_wide(row + kTaps + j)));
+        store_wide(cell + j, load_wide(cell + j) + (fill_wide(at) * load_wide(row + j) +
+                                                    fill_wide(next) * load_wide(row + kTaps + j)));
 }
 
 /// The number of ears is known here, so that everything stays in registers that can.
@@ -294,7 +317,7 @@ double splat_to(const SplatSurface& surface, const SplatEar* ear) {
             for (int e = 0; e < kEars; ++e) {
                 const Arrivals& a = arrival[e];
                 put(ring[e][k % SplatEar::kCopies] + a.cell[k], table + a.row[k], a.weight[0][k],
-                    a.weight[1][k], a.weight[2][k]);
+                    a.weight[1][k]);
             }
     }
     double last = 0.0;
@@ -311,13 +334,15 @@ double splat(const SplatSurface& surface, const SplatEar* ear, int ears) {
 } // namespace
 
 extern const Kernels kKernels;
-const Kernels kKernels = {
-    ODE_SOUND_ISA_NAME,
-    &dot,
-    &gather,
-    &between,
-    &areas,
-    &mix,
-    {&splat<Facing::kAll>, &splat<Facing::kVisible>, &splat<Facing::kCosine>}};
+const Kernels kKernels = {ODE_SOUND_ISA_NAME,
+                          &dot,
+                          &gather,
+                          &between,
+                          &areas,
+                          &mix,
+                          &lean,
+                          &high_pass,
+                          {&splat<Facing::kAll>, &splat<Facing::kVisible>, &splat<Facing::kCosine>,
+                           &splat<Facing::kLeaning>}};
 
 } // namespace ode::sound::ODE_SOUND_ISA_NAMESPACE

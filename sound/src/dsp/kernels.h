@@ -13,7 +13,8 @@ namespace ode::sound {
 enum class Facing {
     kAll,     ///< the same all round
     kVisible, ///< 1 where its normal looks at the ear, 0 where away, a ramp of cos = +-0.05 between
-    kCosine   ///< cosine of the angle between normal and ear where positive, else 0
+    kCosine,  ///< cosine of the angle between normal and ear where positive, else 0
+    kLeaning  ///< flow + lean_flow (lean . way) / distance
 };
 
 /// One ear, as one sample of one surface is sent to it.
@@ -36,6 +37,8 @@ struct SplatSurface {
     const double* area;       ///< area vectors, points [m^2]; unused for Facing::kAll
     const double* softening;  ///< square of the least distance of each node [m^2]
     const double* flow;       ///< volume per time of each node [m^3/s]
+    const double* lean;       ///< points [-], for Facing::kLeaning
+    const double* lean_flow;  ///< of each node [m^3/s], the same
     double samples_per_metre; ///< ring rate / speed of sound
     const double* table;      ///< SplatTable::rows()
 };
@@ -61,9 +64,18 @@ struct Kernels {
     void (*mix)(int nodes, int rows, const double* const* row, const double* weight,
                 double* const* flow);
 
+    /// out[i] = along_area[i] area[i] + along_way[i] (point[i] - centre).
+    void (*lean)(int nodes, const double* area, const double* along_area, const double* point,
+                 const double* centre, const double* along_way, double* out);
+
+    /// after[i] = keep after[i] + pass (in[i] - before[i]), before[i] = in[i];
+    /// out[i] = after[i] + extra share[i].
+    void (*high_pass)(int nodes, const double* in, double keep, double pass, double* before,
+                      double* after, double extra, const double* share, double* out);
+
     /// Adds flow / distance of every node to the rings of the ears at the retarded time.
     /// @return largest delay that was not dropped [samples]; 0 if all were.
-    double (*splat[3])(const SplatSurface& surface, const SplatEar* ear, int ears);
+    double (*splat[4])(const SplatSurface& surface, const SplatEar* ear, int ears);
 };
 
 /// The widest set that this processor runs, or the one that the environment variable ODE_SOUND_ISA

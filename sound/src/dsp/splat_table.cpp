@@ -4,11 +4,11 @@
 
 namespace ode::sound {
 
-SplatTable::SplatTable() : row_(static_cast<std::size_t>(kPhases + 3) * kTaps) {
+SplatTable::SplatTable() : row_(static_cast<std::size_t>(kPhases + 1) * kTaps) {
     constexpr double kAttenuation = 140.0; // what 16 taps and a transition of 0.583 allow
     const double beta = kaiser_beta(kAttenuation);
-    for (int p = -1; p <= kPhases + 1; ++p) {
-        double* row = row_.data() + static_cast<std::size_t>(p + 1) * kTaps;
+    for (int p = 0; p <= kPhases; ++p) {
+        double* row = row_.data() + static_cast<std::size_t>(p) * kTaps;
         double sum = 0.0;
         for (int j = 0; j < kTaps; ++j) {
             const double x = j - kBefore - static_cast<double>(p) / kPhases;

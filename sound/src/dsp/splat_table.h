@@ -6,8 +6,8 @@ namespace ode::sound {
 
 /// Weights that put a sample between the samples of a grid: Kaiser-windowed sinc of 16 taps.
 ///
-/// Row p holds the weights for a fraction p / kPhases, from -1 to kPhases + 2; between rows they
-/// are interpolated by cubics, 160 dB down. Pass band to 0.208 cycles per sample (20 kHz of 96),
+/// Row p holds the weights for a fraction p / kPhases; between rows they are interpolated, 120 dB
+/// down. Pass band to 0.208 cycles per sample (20 kHz of 96),
 /// images from 0.792 are 140 dB down.
 ///
 /// That much is needed since a body in flight moves far more air, back and forth, than its
@@ -18,11 +18,11 @@ public:
     static constexpr int kTaps = 16;
     static constexpr int kBefore = 7; ///< taps before the sample that the arrival rounds down to
     static constexpr int kAfter = kTaps - 1 - kBefore;
-    static constexpr int kPhases = 256;
+    static constexpr int kPhases = 512;
 
     SplatTable();
-    /// Row 0; one row before it, kPhases + 1 behind.
-    const double* rows() const noexcept { return row_.data() + kTaps; }
+    /// Row 0; kPhases more behind it.
+    const double* rows() const noexcept { return row_.data(); }
 
 private:
     AlignedVector row_;

@@ -77,9 +77,11 @@ void Listener::splat(const FlowBlock& block, bool ghost) noexcept {
         return;
     const SplatSurface surface{block.nodes,         block.position,
                                block.area,          block.softening,
-                               block.flow,          settings_->send_rate() / settings_->air.speed,
+                               block.flow,          block.lean,
+                               block.lean_flow,     settings_->send_rate() / settings_->air.speed,
                                splat_table().rows()};
-    const auto facing = static_cast<std::size_t>(radiation_facing(settings_->radiation));
+    const auto facing = static_cast<std::size_t>(
+        block.lean ? Facing::kLeaning : radiation_facing(settings_->radiation));
     const double delay = kernels().splat[facing](surface, target, count);
     for (int e = 0; e < count; ++e)
         line[e]->note_arrival(static_cast<double>(block.sample) + delay);
@@ -110,9 +112,11 @@ void Listener::send(const FacetBlock& block) noexcept {
             const double cosine = way.dot(Vec3(f[5], f[6], f[7])) / distance;
             if (facing != Facing::kAll && cosine <= 0.0)
                 continue;
-            double s = f[0] * f[1] / distance; // P01 eq. 10
+            double s = block.gain * f[0] * f[1] / distance; // P01 eq. 10
             if (facing == Facing::kCosine)
                 s *= cosine;
+            else if (settings_->radiation == Radiation::kKirchhoff)
+                s *= 1.0 + cosine;
             ear.paper->add(block.sample, distance * per_metre, s); // P01 eq. 11
         }
     }
@@ -130,8 +134,11 @@ void Listener::render(std::int64_t frame) noexcept {
         for (int f = 0; f < count; ++f)
             for (int e = 0; e < kEars; ++e) {
                 meter_.add(heard[e][f]);
+                ear_meter_[static_cast<std::size_t>(e)].add(heard[e][f]);
                 out[kEars * f + e] = static_cast<float>(scale * heard[e][f]);
             }
+        if (limiter_)
+            limiter_->run(out, count);
         for_each_sink([&](Sink& sink) {
             const auto wanted = static_cast<std::size_t>(count);
             std::size_t taken = 0;
@@ -155,7 +162,22 @@ std::int64_t Listener::last_frame() const noexcept {
         const Line& line = ear.wave ? static_cast<const Line&>(*ear.wave) : *ear.paper;
         last = std::max(last, line.last_frame() + 1);
     }
-    return last;
+    return last + (limiter_ ? limiter_->delay() : 0);
+}
+
+void Listener::set_limiter(double ceiling) {
+    if (ceiling <= 0.0)
+        limiter_.reset();
+    else if (limiter_)
+        limiter_->set_ceiling(ceiling);
+    else
+        limiter_.emplace(settings_->rate, kEars, ceiling);
+}
+
+Listener::Level Listener::take_level() noexcept {
+    const Level level{ear_meter_, limiter_ ? limiter_->take_least_gain() : 1.0};
+    ear_meter_ = {};
+    return level;
 }
 
 bool Listener::add_sink(const std::shared_ptr<Sink>& sink) {
@@ -163,6 +185,11 @@ bool Listener::add_sink(const std::shared_ptr<Sink>& sink) {
         return true;
     if (!sink->open({settings_->rate, kEars}))
         return false;
+    const bool pascals = settings_->radiation != Radiation::kPaper;
+    sink->calibrate({settings_->full_scale, pascals ? "Pa" : "Pa m",
+                     radiation_name(static_cast<int>(settings_->radiation)).data(),
+                     sampling_name(static_cast<int>(settings_->sampling)).data(),
+                     static_cast<double>(next_) / settings_->rate});
     sinks_.push_back(sink);
     return true;
 }

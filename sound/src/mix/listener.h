@@ -1,6 +1,7 @@
 #pragma once
 
 #include "listen/pose.h"
+#include "mix/limiter.h"
 #include "mix/meter.h"
 #include "mix/settings.h"
 #include "path/ear_line.h"
@@ -10,6 +11,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace ode::sound {
@@ -56,6 +58,18 @@ public:
     std::int64_t dropped() const noexcept { return dropped_; } ///< not taken by a full sink
     const Meter& meter() const noexcept { return meter_; }     ///< [Pa]
 
+    /// What each ear heard since the last call, and by how much the limiter held it down.
+    struct Level {
+        std::array<Meter, kEars> ear; ///< [Pa], before the limiter
+        double least_gain;            ///< [-]
+    };
+    Level take_level() noexcept;
+
+    /// @param ceiling  of what sinks get, relative to full scale; 0 takes the limiter away. Where
+    /// there is one sinks get all Limiter::kLookAhead later; when it comes or goes they miss or
+    /// repeat that much.
+    void set_limiter(double ceiling);
+
 private:
     struct Ear {
         std::unique_ptr<EarPath> path;
@@ -73,6 +87,8 @@ private:
     std::array<Ear, kEars> ear_;
     std::vector<std::weak_ptr<Sink>> sinks_;
     Meter meter_;
+    std::array<Meter, kEars> ear_meter_;
+    std::optional<Limiter> limiter_;
 };
 
 } // namespace ode::sound

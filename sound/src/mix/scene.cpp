@@ -63,12 +63,14 @@ Scene::Body& Scene::find(const void* body, std::span<const int> triangle) {
             return bodies_[hint_];
     std::unique_ptr<BodySource> source;
     if (settings_.sampling == Sampling::kSinc)
-        source = std::make_unique<SurfaceFlow>(triangle, settings_.rate);
+        source = std::make_unique<SurfaceFlow>(
+            triangle, settings_.rate, radiation_leaning(settings_.radiation), settings_.air.speed);
     else
         source = std::make_unique<PaperSurface>(triangle, settings_.rate,
                                                 settings_.air.density * settings_.air.speed,
                                                 settings_.radiation == Radiation::kPaper);
-    bodies_.push_back({body, std::move(source)});
+    const double loud = gain(body);
+    bodies_.push_back({body, std::move(source), loud, loud});
     return bodies_.back();
 }
 
@@ -82,11 +84,38 @@ void Scene::push(const void* body, std::span<const int> triangle, const SurfaceV
     if (!stepping_)
         begin_step(view.time - view.dt);
     ++count_.substeps;
-    if (find(body, triangle).source->push(view, *this))
+    Body& own = find(body, triangle);
+    if (own.gain == 0.0 && own.now == 0.0) // silenced: the source will take it for sleep
+        return;
+    sounding_ = &own;
+    if (own.source->push(view, *this))
         ++count_.gathers;
 }
 
+void Scene::set_gain(const void* body, double gain) {
+    std::erase_if(gain_, [&](const Gain& own) { return own.key == body; });
+    if (gain != 1.0)
+        gain_.push_back({body, gain});
+    for (Body& own : bodies_)
+        if (own.key == body)
+            own.gain = gain;
+}
+
+double Scene::gain(const void* body) const noexcept {
+    const auto found =
+        std::find_if(gain_.begin(), gain_.end(), [&](const Gain& own) { return own.key == body; });
+    return found != gain_.end() ? found->gain : 1.0;
+}
+
+double Scene::next_gain(double rate) noexcept {
+    const double step = 1.0 / (kGainTime * rate);
+    Body& own = *sounding_;
+    own.now += std::clamp(own.gain - own.now, -step, step);
+    return own.now;
+}
+
 void Scene::end_body(const void* body) noexcept {
+    std::erase_if(gain_, [&](const Gain& own) { return own.key == body; });
     for (Body& own : bodies_)
         if (own.key == body)
             own.key = nullptr; // what it did last is still to be heard
@@ -95,8 +124,12 @@ void Scene::end_body(const void* body) noexcept {
 void Scene::end_step(double time) {
     if (!stepping_)
         begin_step(time_);
-    for (Body& body : bodies_)
+    for (Body& body : bodies_) {
+        sounding_ = &body;
         body.source->advance_to(time, *this);
+        if (body.source->is_silent())
+            body.now = body.gain; // nobody hears it jump
+    }
     std::erase_if(bodies_, [](const Body& body) { return !body.key && body.source->is_silent(); });
     const std::int64_t open = settings_.first_open_frame(time);
     for (const auto& listener : listeners_)
@@ -108,20 +141,27 @@ void Scene::end_step(double time) {
 
 void Scene::finish() {
     constexpr double kSettled = 0.1; // [s]: longer than any source takes to fall silent
-    for (Body& body : bodies_)
+    for (Body& body : bodies_) {
+        sounding_ = &body;
         body.source->advance_to(time_ + kSettled, *this);
+    }
     for (const auto& listener : listeners_)
         listener->render(listener->last_frame());
 }
 
 void Scene::on_flow(const FlowBlock& block) noexcept {
+    // A ghost shares its sample with the block before it: the ramp is that much shorter.
+    FlowBlock own = block;
+    own.gain *= next_gain(settings_.send_rate());
     for (const auto& listener : listeners_)
-        listener->send(block);
+        listener->send(own);
 }
 
 void Scene::on_facets(const FacetBlock& block) noexcept {
+    FacetBlock own = block;
+    own.gain *= next_gain(settings_.send_rate());
     for (const auto& listener : listeners_)
-        listener->send(block);
+        listener->send(own);
 }
 
 Scene::Count Scene::count() const noexcept {

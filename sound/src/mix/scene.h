@@ -38,6 +38,12 @@ public:
 
     /// One substep of one body. @param triangle  as in Surface; read at the first substep alone.
     void push(const void* body, std::span<const int> triangle, const SurfaceView& view);
+    /// How loud a body is from now on; 1 as it is, 0 silent, and then it costs nothing. Reached in
+    /// kGainTime, without a click. May come before the body's first substep.
+    void set_gain(const void* body, double gain);
+    double gain(const void* body) const noexcept;
+    static constexpr double kGainTime = 5e-3; ///< [s], from 0 to 1
+
     /// The body will come no more; its address may be used anew.
     void end_body(const void* body) noexcept;
     /// All substeps up to `time` [s] have come.
@@ -52,20 +58,29 @@ private:
     struct Body {
         const void* key; ///< null once it has ended
         std::unique_ptr<BodySource> source;
+        double gain; ///< wanted
+        double now;  ///< heard
+    };
+    struct Gain {
+        const void* key;
+        double gain;
     };
 
     void on_flow(const FlowBlock& block) noexcept override;
     void on_facets(const FacetBlock& block) noexcept override;
+    double next_gain(double samples_per_second) noexcept;
     Body& find(const void* body, std::span<const int> triangle);
     void begin_step(double time);
 
     Settings settings_;
     std::vector<std::unique_ptr<Listener>> listeners_;
     std::vector<Body> bodies_;
-    std::size_t hint_ = 0;  ///< body of the last push
-    bool stepping_ = false; ///< between the first substep and end_step()
-    double time_ = 0.0;     ///< end of the last step [s]
-    double duration_ = 0.0; ///< of the last step [s]
+    std::vector<Gain> gain_;   ///< those that differ from 1
+    Body* sounding_ = nullptr; ///< gives off at present
+    std::size_t hint_ = 0;     ///< body of the last push
+    bool stepping_ = false;    ///< between the first substep and end_step()
+    double time_ = 0.0;        ///< end of the last step [s]
+    double duration_ = 0.0;    ///< of the last step [s]
     Count count_;
     Meter gone_; ///< of listeners removed
 };

@@ -13,16 +13,31 @@
 namespace ode::sound {
 namespace {
 
-std::unique_ptr<FileWriter> writer_for(const std::string& path) {
+std::string ending_of(const std::string& path) {
     std::string ending = std::filesystem::path(path).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (ending == ".wav")
-        return make_wav_writer();
-    if (ending == ".flac")
-        return make_flac_writer();
-    throw Refused("'" + path + "': the ending '" + ending +
-                  "' names no sound format; end the path in " + FileSink::formats());
+    return ending;
+}
+
+Encoding encoding_for(const std::string& path, int bits) {
+    const std::string ending = ending_of(path);
+    if (ending != ".wav" && ending != ".flac")
+        throw Refused("'" + path + "': the ending '" + ending +
+                      "' names no sound format; end the path in " + FileSink::formats());
+    const bool flac = ending == ".flac";
+    if (bits == 0)
+        return flac ? Encoding::kInt24 : Encoding::kFloat32;
+    if (bits == 24 || bits == 16)
+        return bits == 24 ? Encoding::kInt24 : Encoding::kInt16;
+    if (bits == 32 && !flac)
+        return Encoding::kFloat32;
+    throw Refused("'" + path + "': " + std::to_string(bits) + " bits can't be had; choose " +
+                  (flac ? "24 or 16" : "32 (float), 24 or 16"));
+}
+
+std::unique_ptr<FileWriter> writer_for(const std::string& path, Encoding encoding) {
+    return ending_of(path) == ".wav" ? make_wav_writer(encoding) : make_flac_writer(encoding);
 }
 
 const char* cure(int error) noexcept {
@@ -50,7 +65,15 @@ const char* cure(int error) noexcept {
 
 } // namespace
 
-FileSink::FileSink(const std::string& path) : path_(path), writer_(writer_for(path)) {
+const char* encoding_name(Encoding encoding) noexcept {
+    constexpr const char* kNames[] = {"float 32", "integer 24", "integer 16"};
+    return kNames[static_cast<int>(encoding)];
+}
+
+FileSink::FileSink(const std::string& path, int bits, bool note)
+    : path_(path), encoding_(encoding_for(path, bits)), writer_(writer_for(path, encoding_)) {
+    if (note)
+        note_.emplace(std::filesystem::path(path).replace_extension(".json").string());
     // O_NONBLOCK: a pipe without a reader would hold the program here.
     constexpr int kFlags = O_RDWR | O_CLOEXEC | O_NONBLOCK;
     descriptor_ = ::open(path.c_str(), kFlags | O_CREAT | O_EXCL, 0666);
@@ -93,6 +116,32 @@ bool FileSink::open(const Format& format) {
     return !reason;
 }
 
+void FileSink::calibrate(const Calibration& calibration) {
+    if (!note_)
+        return;
+    note_->set(calibration);
+    write_note(); // for the case that the program dies
+}
+
+bool FileSink::mark(const char* text) {
+    if (!note_)
+        return false;
+    note_->add_event(writer_->frames(), text);
+    return true;
+}
+
+void FileSink::write_note() noexcept {
+    const char* reason = nullptr;
+    try {
+        reason = note_->write(path_, encoding_name(encoding_), format_, writer_->frames());
+    } catch (const std::exception&) {
+        reason = "out of memory";
+    }
+    if (reason)
+        error_.set("%s: cannot be written (%s); the sound itself is whole", note_->path().c_str(),
+                   reason);
+}
+
 std::size_t FileSink::write(std::span<const float> interleaved) noexcept {
     const std::size_t frames = interleaved.size() / static_cast<std::size_t>(format_.channels);
     if (descriptor_ < 0 || format_.rate == 0)
@@ -113,6 +162,8 @@ std::size_t FileSink::write(std::span<const float> interleaved) noexcept {
 void FileSink::close() noexcept {
     if (descriptor_ < 0)
         return;
+    if (note_ && format_.rate != 0)
+        write_note();
     if (format_.rate == 0) {
         if (created_)
             unlink(path_.c_str()); // never used: leave no empty file behind
@@ -138,6 +189,8 @@ void FileSink::fail(const char* reason) noexcept {
             "on another disk",
             path_.c_str(), reason, static_cast<double>(writer_->frames()) / format_.rate);
     writer_->finish();
+    if (note_)
+        write_note();
     ::close(descriptor_);
     descriptor_ = -1;
 }
@@ -151,9 +204,10 @@ void FileSink::watch_clipping(std::span<const float> interleaved) noexcept {
         return;
     const auto frames = static_cast<double>(writer_->frames()) +
                         static_cast<double>((beyond - interleaved.begin()) / format_.channels);
-    error_.set("%s: clipped at full scale, first at %.3f s; raise the full scale "
-               "(dSoundSetFullScale) or write .wav, which keeps louder samples",
-               path_.c_str(), frames / format_.rate);
+    error_.set(
+        "%s: clipped at full scale, first at %.3f s; raise the full scale "
+        "(dSoundSetFullScale), set a limiter or write .wav of 32 bits, which keeps louder samples",
+        path_.c_str(), frames / format_.rate);
 }
 
 } // namespace ode::sound

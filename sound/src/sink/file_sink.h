@@ -2,9 +2,11 @@
 
 #include "sink/file_writer.h"
 #include "sink/first_error.h"
+#include "sink/side_note.h"
 #include "sink/sink.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace ode::sound {
@@ -22,7 +24,9 @@ public:
     /// Opens the path, so that one that cannot be written is told of now and not after an hour. An
     /// existing file keeps its content until open().
     /// @throws Refused
-    explicit FileSink(const std::string& path);
+    /// @param bits  32 (float), 24 or 16; 0: the format's own, 32 for .wav and 24 for .flac.
+    /// @param note  write JSON beside it, named like it with ".json" for its ending.
+    explicit FileSink(const std::string& path, int bits = 0, bool note = false);
     FileSink(const FileSink&) = delete;
     FileSink& operator=(const FileSink&) = delete;
     ~FileSink() override { close(); }
@@ -33,14 +37,22 @@ public:
     const char* error() const noexcept override { return error_.text(); }
     const char* kind() const noexcept override { return "file"; }
 
+    void calibrate(const Calibration& calibration) override;
+    /// Notes an event at the next frame. @return false without a note.
+    bool mark(const char* text);
+
     /// The endings and what they stand for, as a phrase for messages.
-    static const char* formats() noexcept { return ".wav (32-bit float) or .flac (24 bit)"; }
+    static const char* formats() noexcept { return ".wav or .flac"; }
 
 private:
     void fail(const char* reason) noexcept;
     void watch_clipping(std::span<const float> interleaved) noexcept;
 
+    void write_note() noexcept;
+
     std::string path_;
+    Encoding encoding_ = Encoding::kFloat32;
+    std::optional<SideNote> note_;
     std::unique_ptr<FileWriter> writer_;
     int descriptor_ = -1;
     bool created_ = false; ///< the path did not exist before

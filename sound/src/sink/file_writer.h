@@ -23,9 +23,14 @@ public:
     virtual std::uint64_t frames() const noexcept = 0;
 };
 
-/// RIFF/WAVE of 32-bit floats; RF64 (EBU Tech 3306) from 4 GiB on.
-std::unique_ptr<FileWriter> make_wav_writer();
-/// FLAC of 24 bits, by libsndfile.
-std::unique_ptr<FileWriter> make_flac_writer();
+/// How samples lie in a file. Integers are rounded; 16 bits with triangular dither of one step, so
+/// that what is quieter than a step stays and is not distorted; the noise is the same every time.
+enum class Encoding { kFloat32, kInt24, kInt16 };
+const char* encoding_name(Encoding encoding) noexcept;
+
+/// RIFF/WAVE; RF64 (EBU Tech 3306) from 4 GiB on.
+std::unique_ptr<FileWriter> make_wav_writer(Encoding encoding);
+/// FLAC of 24 or 16 bits, by libsndfile.
+std::unique_ptr<FileWriter> make_flac_writer(Encoding encoding);
 
 } // namespace ode::sound

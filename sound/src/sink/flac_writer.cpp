@@ -1,5 +1,7 @@
 #include "sink/file_writer.h"
+#include "sink/quantiser.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <sndfile.h>
@@ -12,7 +14,7 @@ namespace {
 /// a channel at most); only the length is missing from its header.
 class FlacWriter final : public FileWriter {
 public:
-    FlacWriter() = default;
+    explicit FlacWriter(Encoding encoding) : encoding_(encoding), quantiser_(encoding) {}
     FlacWriter(const FlacWriter&) = delete;
     FlacWriter& operator=(const FlacWriter&) = delete;
     ~FlacWriter() override { finish(); }
@@ -23,7 +25,8 @@ public:
         SF_INFO info{};
         info.samplerate = format.rate;
         info.channels = format.channels;
-        info.format = SF_FORMAT_FLAC | SF_FORMAT_PCM_24;
+        info.format =
+            SF_FORMAT_FLAC | (encoding_ == Encoding::kInt16 ? SF_FORMAT_PCM_16 : SF_FORMAT_PCM_24);
         // Own callbacks, because libsndfile loses the reason of a failed write in the encoder.
         SF_VIRTUAL_IO io{length, seek, read, write, tell};
         file_ = sf_open_virtual(&io, SFM_WRITE, &info, this);
@@ -35,6 +38,8 @@ public:
 
     const char* append(std::span<const float> interleaved) noexcept override {
         const auto frames = static_cast<sf_count_t>(interleaved.size()) / channels_;
+        if (encoding_ == Encoding::kInt16)
+            return append_dithered(interleaved);
         const sf_count_t done = sf_writef_float(file_, interleaved.data(), frames);
         if (done != frames || errno_ != 0)
             return failure();
@@ -55,6 +60,24 @@ public:
     std::uint64_t frames() const noexcept override { return frames_; }
 
 private:
+    const char* append_dithered(std::span<const float> interleaved) noexcept {
+        constexpr std::size_t kBlock = 4096; // samples
+        short value[kBlock];
+        const auto channels = static_cast<std::size_t>(channels_);
+        while (interleaved.size() >= channels) {
+            const std::size_t part =
+                std::min(interleaved.size() / channels, kBlock / channels) * channels;
+            for (std::size_t i = 0; i < part; ++i)
+                value[i] = static_cast<short>(quantiser_(interleaved[i]));
+            const auto frames = static_cast<sf_count_t>(part / channels);
+            if (sf_writef_short(file_, value, frames) != frames || errno_ != 0)
+                return failure();
+            frames_ += part / channels;
+            interleaved = interleaved.subspan(part);
+        }
+        return nullptr;
+    }
+
     static FlacWriter& self(void* data) noexcept { return *static_cast<FlacWriter*>(data); }
     static sf_count_t length(void* data) {
         const int fd = self(data).descriptor_;
@@ -91,6 +114,8 @@ private:
         return errno_ != 0 ? std::strerror(errno_) : sf_strerror(file_);
     }
 
+    Encoding encoding_;
+    Quantiser quantiser_;
     int descriptor_ = -1;
     int channels_ = 1;
     int errno_ = 0; ///< of the first failed write
@@ -100,6 +125,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<FileWriter> make_flac_writer() { return std::make_unique<FlacWriter>(); }
+std::unique_ptr<FileWriter> make_flac_writer(Encoding encoding) {
+    return std::make_unique<FlacWriter>(encoding);
+}
 
 } // namespace ode::sound

@@ -12,6 +12,15 @@ struct Format {
     bool operator==(const Format&) const = default;
 };
 
+/// What full scale stands for, for sinks that write it down.
+struct Calibration {
+    double full_scale = 20.0;   ///< in `unit`
+    const char* unit = "Pa";    ///< static
+    const char* radiation = ""; ///< static
+    const char* sampling = "";  ///< static
+    double start = 0.0;         ///< of the first frame [s of the simulation]
+};
+
 /// A sink that cannot be made: one sentence with the thing, the reason and the cure. Creation only.
 class Refused : public std::runtime_error {
 public:
@@ -30,6 +39,9 @@ public:
     /// Opening again with the same format continues the stream.
     /// @return false when refused; error() says why, and write() forgets what it gets.
     virtual bool open(const Format& format) = 0;
+
+    /// After open(), and again when it changes.
+    virtual void calibrate(const Calibration&) {}
 
     /// Takes whole frames from the front; never waits for a device or for another thread.
     /// @return frames taken. Fewer than offered means full for now: the caller keeps or drops the

@@ -27,9 +27,9 @@ private:
 
 } // namespace
 
-std::array<unsigned char, kWavHeaderSize> wav_header(const Format& format,
-                                                     std::uint64_t frames) noexcept {
-    const auto frame_bytes = static_cast<std::uint16_t>(format.channels * 4);
+std::array<unsigned char, kWavHeaderSize> wav_header(const Format& format, std::uint64_t frames,
+                                                     Encoding encoding) noexcept {
+    const auto frame_bytes = static_cast<std::uint16_t>(format.channels * sample_bytes(encoding));
     const std::uint64_t data_bytes = frames * frame_bytes;
     const std::uint64_t riff_bytes = data_bytes + kWavHeaderSize - 8;
     constexpr auto kLarge = std::numeric_limits<std::uint32_t>::max(); // "see ds64"
@@ -49,12 +49,13 @@ std::array<unsigned char, kWavHeaderSize> wav_header(const Format& format,
     bytes.number(std::uint32_t{0}); // no table of further sizes
     bytes.tag("fmt ");
     bytes.number(std::uint32_t{18});
-    bytes.number(std::uint16_t{3}); // IEEE float
+    bytes.number(std::uint16_t{
+        encoding == Encoding::kFloat32 ? std::uint16_t{3} : std::uint16_t{1}}); // IEEE float or PCM
     bytes.number(static_cast<std::uint16_t>(format.channels));
     bytes.number(static_cast<std::uint32_t>(format.rate));
     bytes.number(static_cast<std::uint32_t>(format.rate) * frame_bytes);
     bytes.number(frame_bytes);
-    bytes.number(std::uint16_t{32});
+    bytes.number(static_cast<std::uint16_t>(8 * sample_bytes(encoding)));
     bytes.number(std::uint16_t{0}); // no extension
     bytes.tag("fact");
     bytes.number(std::uint32_t{4});

@@ -1,8 +1,10 @@
 // Written here and not by libsndfile, because that cannot leave the PEAK chunk, which holds the
 // time of day, out of a file that may grow into RF64: bytes would differ from run to run.
 #include "sink/file_writer.h"
+#include "sink/quantiser.h"
 #include "sink/wav_header.h"
 
+#include <algorithm>
 #include <bit>
 #include <cerrno>
 #include <cstring>
@@ -15,6 +17,8 @@ static_assert(std::endian::native == std::endian::little, "WAV samples are littl
 
 class WavWriter final : public FileWriter {
 public:
+    explicit WavWriter(Encoding encoding) : encoding_(encoding), quantiser_(encoding) {}
+
     const char* begin(int descriptor, const Format& format) noexcept override {
         descriptor_ = descriptor;
         format_ = format;
@@ -22,28 +26,42 @@ public:
     }
 
     const char* append(std::span<const float> interleaved) noexcept override {
-        const auto* bytes = reinterpret_cast<const unsigned char*>(interleaved.data());
-        if (const char* reason = put(bytes, interleaved.size_bytes(), end())) {
+        const auto channels = static_cast<std::size_t>(format_.channels);
+        const char* reason = nullptr;
+        if (encoding_ == Encoding::kFloat32) {
+            reason = put(reinterpret_cast<const unsigned char*>(interleaved.data()),
+                         interleaved.size_bytes(), end());
+            frames_ += reason ? 0 : interleaved.size() / channels;
+        }
+        while (encoding_ != Encoding::kFloat32 && !reason && interleaved.size() >= channels) {
+            const std::size_t part =
+                std::min(interleaved.size() / channels, kBlock / channels) * channels;
+            unsigned char bytes[3 * kBlock];
+            quantiser_.write(interleaved.first(part), bytes);
+            reason = put(bytes, part * static_cast<std::size_t>(sample_bytes(encoding_)), end());
+            frames_ += reason ? 0 : part / channels;
+            interleaved = interleaved.subspan(part);
+        }
+        if (reason) {
             // Cut what came through of a frame; the header then tells of whole frames only.
             [[maybe_unused]] const int cut = ftruncate(descriptor_, static_cast<off_t>(end()));
             checkpoint();
-            return reason;
         }
-        frames_ += interleaved.size() / static_cast<std::size_t>(format_.channels);
-        return nullptr;
+        return reason;
     }
 
     const char* checkpoint() noexcept override {
-        const auto header = wav_header(format_, frames_);
+        const auto header = wav_header(format_, frames_, encoding_);
         return put(header.data(), header.size(), 0);
     }
     const char* finish() noexcept override { return checkpoint(); }
-    bool clips() const noexcept override { return false; }
+    bool clips() const noexcept override { return encoding_ != Encoding::kFloat32; }
     std::uint64_t frames() const noexcept override { return frames_; }
 
 private:
     std::uint64_t end() const noexcept {
-        return kWavHeaderSize + frames_ * 4 * static_cast<std::uint64_t>(format_.channels);
+        return kWavHeaderSize + frames_ * static_cast<std::uint64_t>(sample_bytes(encoding_)) *
+                                    static_cast<std::uint64_t>(format_.channels);
     }
 
     /// pwrite(), which may write in parts. What was written of whole frames stays uncounted: the
@@ -62,6 +80,10 @@ private:
         return nullptr;
     }
 
+    static constexpr std::size_t kBlock = 4096; ///< samples converted at a time
+
+    Encoding encoding_;
+    Quantiser quantiser_;
     int descriptor_ = -1;
     Format format_{1, 1};
     std::uint64_t frames_ = 0;
@@ -69,6 +91,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<FileWriter> make_wav_writer() { return std::make_unique<WavWriter>(); }
+std::unique_ptr<FileWriter> make_wav_writer(Encoding encoding) {
+    return std::make_unique<WavWriter>(encoding);
+}
 
 } // namespace ode::sound

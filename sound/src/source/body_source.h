@@ -14,6 +14,8 @@ struct FlowBlock {
     const double* area;      ///< area vectors, points [m^2], of about that time
     const double* softening; ///< square of each node's least distance [m^2]
     const double* flow;      ///< low-passed area . velocity [m^3/s]
+    const double* lean;      ///< points [-]; null: the same all round, see Lean
+    const double* lean_flow; ///< [m^3/s]
     double gain;             ///< 1, or a part while the source crosses over to another place
 };
 
@@ -22,6 +24,7 @@ struct FacetBlock {
     std::int64_t sample; ///< time * audio rate
     int facets;
     const double* facet; ///< kFields doubles each
+    double gain = 1.0;   ///< of the body
     /// pressure [Pa], area [m^2], centre x y z [m], unit normal x y z
     static constexpr int kFields = 8;
 };

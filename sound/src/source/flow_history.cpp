@@ -11,12 +11,14 @@ namespace ode::sound {
 FlowHistory::FlowHistory(int nodes, int intervals)
     : nodes_(static_cast<std::size_t>(nodes)), rows_(nodes_ * static_cast<std::size_t>(intervals)),
       begin_(static_cast<std::size_t>(intervals)), end_(begin_), quiet_(begin_.size()),
-      row_(begin_.size()), weight_(4 * begin_.size()) {}
+      row_(begin_.size()), weight_(4 * begin_.size()), moment_(weight_.size()),
+      middle_(begin_.size()), length_(begin_.size()) {}
 
 void FlowHistory::reserve(int intervals) {
     if (intervals <= capacity())
         return;
     FlowHistory larger(static_cast<int>(nodes_), intervals);
+    larger.sloped_ = sloped_;
     for (int age = size_ - 1; age >= 0; --age) {
         const std::size_t i = slot(age);
         std::copy_n(volume(age), nodes_, larger.push(begin_[i], end_[i], quiet_[i] != 0));
@@ -55,14 +57,37 @@ bool FlowHistory::low_pass(double first, double spacing, double stretch, double*
             const double old = touching ? before[j] : step((at - begin_[i]) * per_second);
             before[j] = step((at - end_[i]) * per_second);
             weight[j] = (old - before[j]) * scale;
+            if (sloped_) { // Simpson's rule for the integral of the step
+                const double half = step((at - 0.5 * (begin_[i] + end_[i])) * per_second);
+                moment_[static_cast<std::size_t>(4 * rows + j)] =
+                    (half - 0.5 * (old + before[j])) * (2.0 / 3.0) / scale;
+            }
         }
+        middle_[static_cast<std::size_t>(rows)] = 0.5 * (begin_[i] + end_[i]);
+        length_[static_cast<std::size_t>(rows)] = end_[i] - begin_[i];
         seam = end_[i];
         row_[static_cast<std::size_t>(rows++)] = rows_.data() + i * nodes_;
     }
     if (quiet)
         return false;
+    if (sloped_)
+        add_slopes(rows);
     kernels().mix(static_cast<int>(nodes_), rows, row_.data(), weight_.data(), flow);
     return true;
+}
+
+void FlowHistory::add_slopes(int rows) noexcept {
+    for (std::size_t r = 1; r + 1 < static_cast<std::size_t>(rows); ++r) {
+        const double way = middle_[r + 1] - middle_[r - 1];
+        const double touching = 0.5 * (length_[r - 1] + length_[r + 1]) + length_[r];
+        if (way > 1.001 * touching) // a gap: nothing is known of the slope
+            continue;
+        for (std::size_t j = 0; j < 4; ++j) {
+            const double m = moment_[4 * r + j] / way;
+            weight_[4 * (r + 1) + j] += m / length_[r + 1];
+            weight_[4 * (r - 1) + j] -= m / length_[r - 1];
+        }
+    }
 }
 
 } // namespace ode::sound

@@ -6,7 +6,8 @@
 namespace ode::sound {
 namespace {
 
-constexpr std::array<std::string_view, 3> kNames = {"monopole", "rayleigh", "paper"};
+constexpr std::array<std::string_view, 5> kNames = {"monopole", "rayleigh", "paper", "kirchhoff",
+                                                    "transfer"};
 
 } // namespace
 
@@ -31,9 +32,25 @@ Facing radiation_facing(Radiation radiation) noexcept {
     case Radiation::kPaper:
         return Facing::kCosine;
     case Radiation::kMonopole:
+    case Radiation::kKirchhoff:
+    case Radiation::kTransfer:
         break;
     }
     return Facing::kAll;
+}
+
+Leaning radiation_leaning(Radiation radiation) noexcept {
+    switch (radiation) {
+    case Radiation::kMonopole:
+    case Radiation::kTransfer: // what has no modes
+        return Leaning::kCarried;
+    case Radiation::kKirchhoff:
+        return Leaning::kNormal;
+    case Radiation::kRayleigh:
+    case Radiation::kPaper:
+        break;
+    }
+    return Leaning::kNone;
 }
 
 bool radiation_differentiates(Radiation radiation) noexcept {
@@ -47,6 +64,8 @@ double radiation_gain(Radiation radiation, const Air& air) noexcept {
     case Radiation::kPaper:
         return air.density * air.speed; // P01 eq. 2; the unit of the result is Pa m
     case Radiation::kMonopole:
+    case Radiation::kKirchhoff:
+    case Radiation::kTransfer:
         break;
     }
     return air.density / (4.0 * std::numbers::pi);

@@ -2,13 +2,14 @@
 
 #include "dsp/decimator.h"
 #include "dsp/kernels.h"
+#include "source/lean.h"
 
 #include <string_view>
 
 namespace ode::sound {
 
 /// How surface motion becomes pressure; see dSoundSetRadiation().
-enum class Radiation { kMonopole, kRayleigh, kPaper };
+enum class Radiation { kMonopole, kRayleigh, kPaper, kKirchhoff, kTransfer };
 
 struct Air {
     double density = 1.21; ///< [kg/m^3]
@@ -23,6 +24,9 @@ bool find_radiation(std::string_view name, Radiation& radiation) noexcept;
 
 /// Which faces count, and how.
 Facing radiation_facing(Radiation radiation) noexcept;
+
+/// What is louder in front than behind.
+Leaning radiation_leaning(Radiation radiation) noexcept;
 
 /// Whether pressure follows the derivative of the retarded sum of flow / distance.
 ///

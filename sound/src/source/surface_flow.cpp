@@ -12,16 +12,18 @@ namespace {
 
 constexpr double kGathersPerSample =
     8.0;                                // box filter: -0.08 dB at 20 kHz, first image above 360 kHz
+constexpr double kAreaSamples = 2.0;    // areas are steps of half the audio rate: inaudible
 constexpr double kMaxStretch = 16.0;    // substeps up to 167 us at 48 kHz are free of images
+constexpr double kEven = 0.02;          // intervals are of equal length
 constexpr double kCrossOver = 4e-3;     // after a jump [s]
 constexpr double kLeastDistance = 1e-6; // of a node that bears no area [m]
 
 } // namespace
 
-SurfaceFlow::SurfaceFlow(std::span<const int> triangle, double rate)
+SurfaceFlow::SurfaceFlow(std::span<const int> triangle, double rate, Leaning leaning, double speed)
     : surface_(triangle), rate_(rate), grid_rate_(kOversampling * rate),
-      interval_(1.0 / (kGathersPerSample * rate)), history_(surface_.nodes(), 1),
-      fade_(surface_.nodes()), places_(surface_.nodes(), 1),
+      interval_(1.0 / (kGathersPerSample * rate)), leaning_(leaning), speed_(speed),
+      history_(surface_.nodes(), 1), fade_(surface_.nodes()), places_(surface_.nodes(), 1),
       last_(4 * static_cast<std::size_t>(surface_.nodes())), area_(last_.size()),
       area_seen_(last_.size()), softening_(last_.size() / 4), flow_(last_.size()) {}
 
@@ -45,6 +47,8 @@ void SurfaceFlow::wake(const SurfaceView& view, BlockSink& out) {
     if (state_ == State::kResting)
         rest_until(begin, out);
     rewind(view, view.dt);
+    if (!lean_)
+        lean_.emplace(leaning_, surface_, last_.data(), area_.data(), grid_rate_, speed_);
     adapt(view.dt);
     if (state_ == State::kSilent)
         start(begin);
@@ -72,6 +76,7 @@ void SurfaceFlow::adapt(double substep) {
 
 void SurfaceFlow::start(double time) {
     history_.clear();
+    lean_->reset();
     fade_.stop();
     // The kernel reaches back: outputs before the first interval hear of it.
     const std::int64_t now = static_cast<std::int64_t>(std::floor(time * grid_rate_));
@@ -144,6 +149,11 @@ void SurfaceFlow::record(const SurfaceView& view, BlockSink& out) {
                        last_.data(), std::clamp((at - begin) / duration, 0.0, 1.0), places_.at(o));
     }
     places_.set_newest(std::max(newest, places_.newest()));
+    const double window = 2.0 * StepKernel::kHalfWidth * stretch_ / grid_rate_;
+    if (std::abs(duration - last_length_) > kEven * duration)
+        uneven_until_ = view.time + 2.0 * window;
+    last_length_ = duration;
+    history_.set_sloped(view.time < uneven_until_ || interval_ > 1.0 / (kGathersPerSample * rate_));
     double* volume = history_.push(begin, view.time, false);
     kernel.gather(surface_.nodes(), surface_.body_node(), view.position, view.stride, area_.data(),
                   last_.data(), volume);
@@ -157,7 +167,7 @@ void SurfaceFlow::record(const SurfaceView& view, BlockSink& out) {
     if (fade_.is_active(begin))
         fade_.add(begin, view.time, volume);
     event_end_ = view.time;
-    if (view.time - refreshed_ + 0.5 * interval_ >= 1.0 / rate_)
+    if (view.time - refreshed_ + 0.5 * interval_ >= kAreaSamples / rate_)
         refresh_areas(view.time);
     give_off(out);
 }
@@ -229,13 +239,26 @@ void SurfaceFlow::give_off(BlockSink& out) {
                              flow_.data() + 3 * nodes};
     for (; next_ + 3 <= ready; next_ += 4) {
         const double first = static_cast<double>(next_) / grid_rate_;
-        if (!history_.low_pass(first, 1.0 / grid_rate_, stretch_, flow))
+        if (!history_.low_pass(first, 1.0 / grid_rate_, stretch_, flow)) {
+            lean_->reset();
             continue;
+        }
+        const bool leans = lean_->leans();
+        if (leans)
+            lean_->aim(places_.at(next_), area_.data());
         for (int j = 0; j < 4; ++j) {
             const std::int64_t sample = next_ + j;
             const double ghost = places_.ghost_share(sample);
-            FlowBlock block{sample,       surface_.nodes(),  places_.at(sample),
-                            area_.data(), softening_.data(), flow[j],
+            if (leans)
+                lean_->follow(flow[j]);
+            FlowBlock block{sample,
+                            surface_.nodes(),
+                            places_.at(sample),
+                            area_.data(),
+                            softening_.data(),
+                            flow[j],
+                            leans ? lean_->direction() : nullptr,
+                            leans ? lean_->flow() : nullptr,
                             1.0 - ghost};
             out.on_flow(block);
             if (ghost > 0.0) {

@@ -3,7 +3,10 @@
 #include "source/body_source.h"
 #include "source/flow_fade.h"
 #include "source/flow_history.h"
+#include "source/lean.h"
 #include "source/place_history.h"
+
+#include <optional>
 
 namespace ode::sound {
 
@@ -11,16 +14,18 @@ namespace ode::sound {
 ///
 /// Every few substeps (about eight times an audio sample) each node's displacement since the last
 /// time is projected on its area vector: the volume swept. That is the box-filtered velocity,
-/// exactly, from a difference of positions. Area vectors are taken anew once an audio sample and
-/// extrapolated to the middle of the next, so that a turning body does not seem to breathe.
+/// exactly, from a difference of positions. Area vectors are taken anew every other audio sample
+/// and extrapolated to the middle of the next, so that a turning body does not seem to breathe.
 class SurfaceFlow final : public BodySource {
 public:
     /// Latest that a grid sample is given off after its own time [grid samples].
     static constexpr int kMaxLag = 112;
     static constexpr int kOversampling = 2;
 
-    /// @param rate  audio rate [Hz].
-    SurfaceFlow(std::span<const int> triangle, double rate);
+    /// @param rate   audio rate [Hz].
+    /// @param speed  of sound [m/s], for what leans.
+    SurfaceFlow(std::span<const int> triangle, double rate, Leaning leaning = Leaning::kNone,
+                double speed = 343.0);
 
     bool push(const SurfaceView& view, BlockSink& out) override;
     void advance_to(double time, BlockSink& out) override;
@@ -50,15 +55,20 @@ private:
     State state_ = State::kSilent;
     bool entering_ = false; ///< the next interval is the first after a break
 
-    double interval_;         ///< wanted between gathers [s]
-    double stretch_ = 1.0;    ///< of the low-pass, for bodies of long substeps
-    double seen_ = 0.0;       ///< end of the last substep [s]
-    double substep_ = 0.0;    ///< its length [s]
-    double event_end_ = 0.0;  ///< end of the last interval [s]
-    double rest_begin_ = 0.0; ///< [s]
-    double refreshed_ = 0.0;  ///< when the areas were taken [s]
-    std::int64_t next_ = 0;   ///< grid sample that is given off next
+    double interval_;           ///< wanted between gathers [s]
+    double stretch_ = 1.0;      ///< of the low-pass, for bodies of long substeps
+    double seen_ = 0.0;         ///< end of the last substep [s]
+    double substep_ = 0.0;      ///< its length [s]
+    double last_length_ = 0.0;  ///< of the last interval [s]
+    double uneven_until_ = 0.0; ///< intervals differed in length not long before [s]
+    double event_end_ = 0.0;    ///< end of the last interval [s]
+    double rest_begin_ = 0.0;   ///< [s]
+    double refreshed_ = 0.0;    ///< when the areas were taken [s]
+    std::int64_t next_ = 0;     ///< grid sample that is given off next
 
+    Leaning leaning_;
+    double speed_;
+    std::optional<Lean> lean_; ///< from the first view on
     FlowHistory history_;
     FlowFade fade_;
     PlaceHistory places_;

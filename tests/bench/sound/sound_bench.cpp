@@ -38,17 +38,18 @@ void substeps(benchmark::State& state, Radiation radiation, Sampling sampling, i
     scene.set(settings);
     for (int i = 0; i < listeners; ++i)
         scene.add_listener(0.0).pose.centre = {0.0, 0.0, 1.0 + i};
-    long n = 0;
+    // The first view is set aside: it makes room, and finds the air that the body carries.
+    for (std::size_t i = 0; i < shape.node.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            position[4 * i + k] = shape.node[i][static_cast<Eigen::Index>(k)];
+    scene.push(&shape, shape.triangle, {kDt, kDt, position.data(), velocity.data(), 4});
+    long n = 1;
     for (auto _ : state) {
         // All nodes swing along z, amplitude 1 um: as cheap a motion as there is.
         const double t = static_cast<double>(++n) * kDt;
         const double z = 1e-6 * std::sin(6000.0 * t);
         for (std::size_t i = 0; i < shape.node.size(); i += 16) // a few nodes move, no more
             position[4 * i + 2] = shape.node[i][2] + z;
-        if (n <= 2)
-            for (std::size_t i = 0; i < shape.node.size(); ++i)
-                for (std::size_t k = 0; k < 3; ++k)
-                    position[4 * i + k] = shape.node[i][static_cast<Eigen::Index>(k)];
         scene.push(&shape, shape.triangle, {t, kDt, position.data(), velocity.data(), 4});
         if (n % kRound == 0)
             scene.end_step(t);

@@ -25,10 +25,9 @@ double amplitude(Radiation radiation, Motion motion, double frequency) {
 
 class Pulsating : public testing::TestWithParam<double> {};
 
-// p = i w rho a^2 v e^{-ik(r-a)} / (r (1 + ika)): Pierce, Acoustics, 4-1; accuracy.md 6. The rule
-// sums e^{-ikR}/R over the sphere, sin(ka)/ka of the point source's, so that its error is
-// 20 log10(sqrt(1 + ka^2) sin(ka)/ka): 0.11 dB at ka = 0.2. The polyhedron of 1280 triangles holds
-// 0.04 dB less than the ball.
+// p = i w rho a^2 v e^{-ik(r-a)} / (r (1 + ika)): Pierce, Acoustics, 4-1; accuracy.md 6. With its
+// lean the rule is exact for a sphere that pulsates; the polyhedron of 1280 triangles holds 0.08 dB
+// less than the ball, and its air is that of 300 triangles, 0.3 dB less.
 TEST_P(Pulsating, MonopoleMeetsClosedForm) {
     const double ka = GetParam();
     const double f = frequency_of(ka);
@@ -36,11 +35,27 @@ TEST_P(Pulsating, MonopoleMeetsClosedForm) {
     const double closed =
         kTau * f * Air{}.density * kRadius * kRadius * v / (kDistance * std::sqrt(1.0 + ka * ka));
     const double heard = amplitude(Radiation::kMonopole, pulsate(kRadius, kStroke, f), f);
-    EXPECT_NEAR(decibel(heard / closed), 0.0, 0.2);
+    EXPECT_NEAR(decibel(heard / closed), 0.0, 0.35);
 }
 
+// p = rho c v on the surface makes j0(ka) + i j1(ka) of a point's wave.
+TEST_P(Pulsating, KirchhoffIsItsRule) {
+    const double ka = GetParam();
+    const double f = frequency_of(ka);
+    const double w = kTau * f;
+    const double point =
+        w * Air{}.density * kRadius * kRadius * (w * kRadius * kStroke) / kDistance;
+    const double rule = std::hypot(std::sph_bessel(0, ka), std::sph_bessel(1, ka));
+    const double heard = amplitude(Radiation::kKirchhoff, pulsate(kRadius, kStroke, f), f);
+    EXPECT_NEAR(decibel(heard / (point * rule)), 0.0, 0.2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Ka, Pulsating, testing::Values(0.05, 0.2, 0.5, 1.0, 2.0));
+
+class PulsatingSmall : public testing::TestWithParam<double> {};
+
 // numerics.md 6: baffled rule on the visible half. Half the area with twice the factor.
-TEST_P(Pulsating, RayleighMeetsClosedForm) {
+TEST_P(PulsatingSmall, RayleighMeetsClosedForm) {
     const double ka = GetParam();
     const double f = frequency_of(ka);
     const double v = kTau * f * kRadius * kStroke;
@@ -50,15 +65,16 @@ TEST_P(Pulsating, RayleighMeetsClosedForm) {
     EXPECT_NEAR(decibel(heard / closed), 0.0, 0.5);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ka, Pulsating, testing::Values(0.05, 0.1, 0.2));
+INSTANTIATE_TEST_SUITE_P(Ka, PulsatingSmall, testing::Values(0.05, 0.1, 0.2));
 
 class Oscillating : public testing::TestWithParam<double> {};
 
 // Sphere that shakes along the way to the ear with velocity v (Pierce, Acoustics, 4-2):
 //   p = rho w k a^3 v (1 + 1/(ikr)) / (r (2 - (ka)^2 + 2 i ka)), times i^2 and a phase.
-// The rule leaves out that air is pushed round the sphere (added mass): it is 2/3 of the truth for
-// ka -> 0, -3.5 dB, constant while the sphere is compact.
-TEST_P(Oscillating, MonopoleIsTwoThirds) {
+// Sources on the surface alone are 2/3 of the truth for ka -> 0; the lean adds the air that is
+// pushed round the sphere. Its single high-pass stands for an impedance of second order, and near
+// the body the lean misses the wave that fades as 1/R^2: 1.2 dB in all (seen: 1.05 at ka = 1).
+TEST_P(Oscillating, MonopoleMeetsClosedForm) {
     const double ka = GetParam();
     const double f = frequency_of(ka);
     const double w = kTau * f, k = w / Air{}.speed;
@@ -70,10 +86,10 @@ TEST_P(Oscillating, MonopoleIsTwoThirds) {
     const Motion shake = [=](double t) {
         return Placement{{stroke * std::sin(w * t), 0.0, 0.0}, kRadius, 0.0};
     };
-    EXPECT_NEAR(decibel(amplitude(Radiation::kMonopole, shake, f) / closed), -3.6, 0.2);
+    EXPECT_NEAR(decibel(amplitude(Radiation::kMonopole, shake, f) / closed), 0.0, 1.2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Ka, Oscillating, testing::Values(0.05, 0.2, 0.5));
+INSTANTIATE_TEST_SUITE_P(Ka, Oscillating, testing::Values(0.05, 0.2, 0.5, 1.0, 2.0));
 
 // P01 eq. 10 with z v_n and eq. 9's DC block on a far square that faces the ear:
 // s = z v a / R * |H|, H = (1 - e^{-iw}) / (1 - 0.9 e^{-iw}). The unit is Pa m.

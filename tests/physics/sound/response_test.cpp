@@ -1,4 +1,4 @@
-#include "physics/sound/rig.h"
+#include "bench/sound/audio_measures.h"
 
 #include <gtest/gtest.h>
 
@@ -41,14 +41,10 @@ TEST_P(Response, IsFlatToTwentyKilohertz) {
     EXPECT_NEAR(decibel(listen(GetParam(), 0.6e-6, 48000).level), 0.0, 0.1);
 }
 
+// 10 us is longer than the wanted interval of 2.6 us. The slopes of the flow make up for the boxes:
+// what is left is of the fourth order, (w dt)^4 / 240 and what differences miss of a slope.
 TEST_P(Response, IsFlatForLongSubsteps) {
-    // 10 us is longer than the wanted interval of 2.6 us: two boxes of 10 us take
-    // 2 * 20 log10 sinc(0.2) = -1.17 dB at 20 kHz, less below.
-    const double f = GetParam();
-    const double box = std::sin(std::numbers::pi * f * 10e-6) / (std::numbers::pi * f * 10e-6);
-    if (f <= 10000.0) {
-        EXPECT_NEAR(decibel(listen(f, 10e-6, 48000).level), 2.0 * decibel(box), 0.1);
-    }
+    EXPECT_NEAR(decibel(listen(GetParam(), 10e-6, 48000).level), 0.0, 0.5);
 }
 
 INSTANTIATE_TEST_SUITE_P(Frequencies, Response,
@@ -65,6 +61,17 @@ TEST_P(Alias, StaysBelowMinusNinety) {
 INSTANTIATE_TEST_SUITE_P(Frequencies, Alias,
                          testing::Values(24500.0, 28100.0, 33000.0, 47000.0, 52000.0, 71000.0,
                                          77000.0, 95000.0, 101000.0, 150000.0, 200000.0));
+
+// Substeps of 0.6 us, each up to 40 % longer or shorter: the lengths of the gathers' intervals
+// waver. Slopes of the flow hold the mark of -90 dB for what borders on the audible; at 71 kHz they
+// leave -85 dB, at 101 kHz -82 dB (softsound bench audio).
+TEST(Alias, OfUnevenSubstepsStaysLow) {
+    Settings settings = Rig::unit_settings();
+    const Substeps uneven{"", 0.6e-6, 0.4};
+    EXPECT_NEAR(tone(settings, uneven, 20000.0).level, 0.0, 0.1);
+    EXPECT_LT(tone(settings, uneven, 28100.0).rest, -90.0);
+    EXPECT_LT(tone(settings, uneven, 71000.0).rest, -84.0);
+}
 
 TEST(Response, At44100IsFlatAndFree) {
     // Intervals of 3 us: two boxes take 0.10 dB.

@@ -109,8 +109,14 @@ void Rig::place(Body& body, double time) const {
         const Vec3& x = body.shape.node[i];
         const double now[3] = {at.centre[0] + c * x[0] - s * x[1],
                                at.centre[1] + s * x[0] + c * x[1], at.centre[2] + at.scale * x[2]};
+        double velocity[3];
+        for (std::size_t k = 0; k < 3; ++k)
+            velocity[k] = (now[k] - body.position[4 * i + k]) / dt_;
+        constexpr double kTeleport = 5000.0; // [m/s]: no motion, and no velocity
+        const bool moved = std::hypot(velocity[0], velocity[1], velocity[2]) < kTeleport;
         for (std::size_t k = 0; k < 3; ++k) {
-            body.velocity[4 * i + k] = (now[k] - body.position[4 * i + k]) / dt_;
+            if (moved)
+                body.velocity[4 * i + k] = velocity[k];
             body.position[4 * i + k] = now[k];
         }
     }

@@ -56,6 +56,10 @@ public:
     void remove(int body);               ///< the body ends
     void wake(int body, bool awake) { bodies_[static_cast<std::size_t>(body)]->awake = awake; }
 
+    void set_gain(int body, double gain) {
+        scene.set_gain(bodies_[static_cast<std::size_t>(body)].get(), gain);
+    }
+
     void run(double seconds);
     void finish() { scene.finish(); }
 

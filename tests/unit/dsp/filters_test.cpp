@@ -63,7 +63,7 @@ TEST(StepKernel, PassesAQuarterAndStopsThreeQuarters) {
 TEST(SplatTable, RowsSumToOneAndMirror) {
     const double* rows = splat_table().rows();
     constexpr int kTaps = SplatTable::kTaps, kPhases = SplatTable::kPhases;
-    for (int p = -1; p <= kPhases + 1; ++p) {
+    for (int p = 0; p <= kPhases; ++p) {
         double sum = 0.0;
         for (int j = 0; j < kTaps; ++j)
             sum += rows[p * kTaps + j];

@@ -90,6 +90,8 @@ struct Point {
     AlignedVector area = AlignedVector(16, 0.0);
     AlignedVector softening = AlignedVector(4, 1e-12);
     AlignedVector flow = AlignedVector(4, 0.0);
+    AlignedVector lean = AlignedVector(16, 0.0);
+    AlignedVector lean_flow = AlignedVector(4, 0.0);
     std::vector<double> ring[2];
     SplatEar ear{};
 
@@ -107,8 +109,8 @@ struct Point {
                500.0};
     }
     SplatSurface surface() const {
-        return {4,           position.data(), area.data(),         softening.data(),
-                flow.data(), 280.0,           splat_table().rows()};
+        return {4,           position.data(),  area.data(), softening.data(),    flow.data(),
+                lean.data(), lean_flow.data(), 280.0,       splat_table().rows()};
     }
     double sum() const {
         double s = 0.0;
@@ -171,6 +173,44 @@ TEST_P(EveryKernel, FacingWeighsByTheNormal) {
                                         ? std::max(cosine, 0.0)
                                         : std::clamp(0.5 + 10.0 * cosine, 0.0, 1.0);
             EXPECT_NEAR(p.sum(), 2.0 * expected, 1e-9);
+        }
+    }
+}
+
+TEST_P(EveryKernel, LeaningAddsTheLeanTowardsTheEar) {
+    Point p(0.5);
+    p.lean[0] = 3.0;
+    p.lean[1] = 100.0; // across the way: not heard
+    p.lean_flow[0] = 0.2;
+    kernel.splat[static_cast<int>(Facing::kLeaning)](p.surface(), &p.ear, 1);
+    EXPECT_NEAR(p.sum(), (1.0 + 3.0 * 0.2) / 0.5, 1e-8);
+}
+
+TEST_P(EveryKernel, LeanIsMadeOfAreaAndWay) {
+    const AlignedVector area = points(1), point = points(2), a = points(3), b = points(4);
+    const double centre[4] = {0.3, -0.2, 0.7, 0.0};
+    AlignedVector out(4 * kNodes, 9.0);
+    kernel.lean(kNodes, area.data(), a.data(), point.data(), centre, b.data(), out.data());
+    for (std::size_t i = 0; i < kNodes; ++i)
+        for (std::size_t k = 0; k < 4; ++k)
+            EXPECT_NEAR(out[4 * i + k],
+                        k < 3 ? a[i] * area[4 * i + k] + b[i] * (point[4 * i + k] - centre[k])
+                              : 0.0,
+                        1e-12);
+}
+
+TEST_P(EveryKernel, HighPassIsItsRecurrence) {
+    const AlignedVector share = points(7);
+    AlignedVector before(kNodes, 0.0), after(before), out(before);
+    std::vector<double> x(kNodes, 0.0), y(x);
+    for (int n = 0; n < 5; ++n) {
+        const AlignedVector in = points(20 + n);
+        kernel.high_pass(kNodes, in.data(), 0.7, 0.85, before.data(), after.data(), 0.1 * n,
+                         share.data(), out.data());
+        for (std::size_t i = 0; i < kNodes; ++i) {
+            y[i] = 0.7 * y[i] + 0.85 * (in[i] - x[i]);
+            x[i] = in[i];
+            EXPECT_NEAR(out[i], y[i] + 0.1 * n * share[i], 1e-12);
         }
     }
 }

@@ -49,6 +49,50 @@ TEST(Scene, AllSinksOfAListenerGetTheSameBits) {
     EXPECT_EQ(left, 1);
 }
 
+TEST(Scene, GainOfABodyIsAFactorAndMutesWithoutAClick) {
+    const double frequency = 500.0;
+    Rig rig;
+    rig.listener->pose.centre = {0.0, 0.2, 0.0};
+    rig.listener->pose.ear_distance = 0.0;
+    const int body = rig.add(make_sphere(0), pulsate(0.01, 1e-3, frequency));
+    rig.run(0.05);
+    rig.set_gain(body, 0.5);
+    rig.run(0.05);
+    rig.set_gain(body, 0.0);
+    rig.run(0.05);
+    const unsigned long gathers = rig.scene.count().gathers;
+    rig.run(0.05);
+    EXPECT_EQ(rig.scene.count().gathers, gathers) << "a muted body costs nothing";
+    rig.set_gain(body, 1.0);
+    rig.run(0.1);
+    const auto level = [&](double begin, double end) {
+        return std::abs(phasor(rig.heard(begin, end), rig.rate(), frequency));
+    };
+    const double whole = level(0.02, 0.05);
+    EXPECT_NEAR(level(0.065, 0.095) / whole, 0.5, 1e-3);
+    EXPECT_LT(level(0.165, 0.195) / whole, 1e-9);
+    EXPECT_NEAR(level(0.25, 0.29) / whole, 1.0, 1e-3);
+    // Above 10 kHz a tone of 500 Hz has nothing, a click has.
+    EXPECT_LT(decibel(band_rms(rig.heard(0.02, 0.29), rig.rate(), 10000.0, 20000.0) / whole),
+              -60.0);
+}
+
+TEST(Scene, MetersShowEachEarSinceTheLastLook) {
+    Rig rig;
+    rig.listener->pose.centre = {0.0, 0.2, 0.0};
+    rig.add(make_sphere(0), pulsate(0.01, 1e-3, 500.0, {0.09, 0.2, 0.0}));
+    rig.run(0.05);
+    const Listener::Level level = rig.listener->take_level();
+    EXPECT_GT(level.ear[1].peak(), 2.0 * level.ear[0].peak());
+    EXPECT_EQ(level.least_gain, 1.0);
+    EXPECT_EQ(rig.listener->take_level().ear[1].peak(), 0.0);
+    rig.listener->set_limiter(0.1 * level.ear[1].peak());
+    rig.run(0.05);
+    EXPECT_NEAR(rig.listener->take_level().least_gain, 0.1, 0.02);
+    const std::vector<double> held = rig.heard(0.07, 0.095, 1);
+    EXPECT_LE(*std::max_element(held.begin(), held.end()), 0.1 * level.ear[1].peak() + 1e-9);
+}
+
 /// Takes a few frames at a time, then no more.
 class Narrow final : public Sink {
 public:

@@ -126,7 +126,7 @@ TEST(Radiation, NamesRoundTrip) {
         EXPECT_EQ(static_cast<int>(radiation), i);
     }
     EXPECT_FALSE(find_radiation("loud", radiation));
-    EXPECT_EQ(radiation_name(3), "");
+    EXPECT_EQ(radiation_name(5), "");
 }
 
 } // namespace

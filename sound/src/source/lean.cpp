@@ -1,0 +1,124 @@
+#include "source/lean.h"
+
+#include "dsp/kernels.h"
+#include "transfer/carried_air.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <numeric>
+
+namespace ode::sound {
+namespace {
+
+double length(const double* v) { return Eigen::Map<const Vec3>(v).norm(); }
+
+Vec3 mean(const double* point, int nodes) noexcept {
+    Vec3 sum = Vec3::Zero();
+    for (int i = 0; i < nodes; ++i)
+        sum += Eigen::Map<const Vec3>(point + 4 * i);
+    return sum / nodes;
+}
+
+} // namespace
+
+// i w time / (1 + i w time), bilinear: exact at both ends.
+Lean::HighPass::HighPass(double time, double rate) noexcept {
+    const double twice = 2.0 * time * rate;
+    keep = (twice - 1.0) / (twice + 1.0);
+    pass = twice / (twice + 1.0);
+}
+
+Lean::Lean(Leaning leaning, const Surface& surface, const double* point, const double* area,
+           double rate, double speed) {
+    if (leaning == Leaning::kNone)
+        return;
+    const auto n = static_cast<std::size_t>(surface.nodes());
+    for (AlignedVector* v : {&along_area_, &along_way_, &share_, &before_, &after_, &sum_})
+        v->assign(n, 0.0);
+    direction_.assign(4 * n, 0.0);
+    if (leaning == Leaning::kNormal)
+        aim_normals(area);
+    else
+        aim_at_air(surface, point, area, rate, speed);
+}
+
+void Lean::aim_normals(const double* area) {
+    for (std::size_t i = 0; i < along_area_.size(); ++i)
+        if (const double a = length(area + 4 * i); a > 0.0)
+            along_area_[i] = 1.0 / a;
+    leans_ = true;
+}
+
+void Lean::aim_at_air(const Surface& surface, const double* point, const double* area, double rate,
+                      double speed) {
+    BoundaryMesh mesh;
+    for (int i = 0; i < surface.real_nodes(); ++i)
+        mesh.node.emplace_back(point[4 * i], point[4 * i + 1], point[4 * i + 2]);
+    for (int t = 0; t < surface.triangles(); ++t) {
+        const int* node = surface.triangle() + 3 * t;
+        mesh.triangle.push_back({node[0], node[1], node[2]});
+    }
+    const CarriedAir air = carried_air(mesh);
+    if (air.shift.empty())
+        return;
+    // The shift is kept by what turns with the body at no cost: area vector and way from the
+    // middle. What stands on both is lost; on bodies of revolution there is nothing.
+    const Vec3 middle = mean(point, surface.nodes());
+    double total = 0.0;
+    for (std::size_t i = 0; i < air.shift.size(); ++i) {
+        Eigen::Matrix<double, 3, 2> basis;
+        basis.col(0) = Eigen::Map<const Vec3>(area + 4 * i);
+        basis.col(1) = Eigen::Map<const Vec3>(point + 4 * i) - middle;
+        const double scale[2] = {basis.col(0).norm(), basis.col(1).norm()};
+        if (!(scale[0] > 0.0) || !(scale[1] > 0.0))
+            continue;
+        basis.col(0) /= scale[0];
+        basis.col(1) /= scale[1];
+        // Nearly parallel where the body is round: a little of each is better than much of both.
+        Eigen::Matrix2d normal = basis.transpose() * basis;
+        normal.diagonal().array() += 1e-3;
+        const Eigen::Vector2d part =
+            normal.ldlt().solve(basis.transpose() * air.shift[i]) / air.shake_length;
+        along_area_[i] = part[0] / scale[0];
+        along_way_[i] = part[1] / scale[1];
+        share_[i] = scale[0];
+        total += scale[0];
+    }
+    for (double& share : share_)
+        share /= total;
+    shake_ = HighPass(air.shake_length / speed, rate);
+    pulse_ = HighPass(air.pulse_length / speed, rate);
+    leans_ = filters_ = true;
+}
+
+void Lean::reset() noexcept {
+    std::fill(before_.begin(), before_.end(), 0.0);
+    std::fill(after_.begin(), after_.end(), 0.0);
+    pulse_before_ = pulse_after_ = pulse_shaken_ = 0.0;
+}
+
+void Lean::aim(const double* point, const double* area) noexcept {
+    const auto nodes = static_cast<int>(along_area_.size());
+    const Vec3 middle = mean(point, nodes);
+    const double centre[4] = {middle[0], middle[1], middle[2], 0.0};
+    kernels().lean(nodes, area, along_area_.data(), point, centre, along_way_.data(),
+                   direction_.data());
+}
+
+void Lean::follow(const double* flow) noexcept {
+    heard_ = flow;
+    if (!filters_)
+        return;
+    const auto nodes = static_cast<int>(along_area_.size());
+    const double all = std::accumulate(flow, flow + nodes, 0.0);
+    const double step = all - pulse_before_;
+    pulse_before_ = all;
+    pulse_after_ = pulse_.keep * pulse_after_ + pulse_.pass * step;
+    pulse_shaken_ = shake_.keep * pulse_shaken_ + shake_.pass * step;
+    kernels().high_pass(nodes, flow, shake_.keep, shake_.pass, before_.data(), after_.data(),
+                        pulse_after_ - pulse_shaken_, share_.data(), sum_.data());
+    heard_ = sum_.data();
+}
+
+} // namespace ode::sound
