@@ -300,8 +300,9 @@ Aabb Body::aabb() noexcept {
     Aabb box = Aabb::empty();
     for (const int node : surface_.node)
         box.include(state_.position[static_cast<std::size_t>(node)]);
-    // The pairs recorded now serve the whole step that follows.
-    box.grow(max_speed() * world_.last_step());
+    // The pairs recorded now serve the whole step that follows; contact begins where the smooth
+    // surface does.
+    box.grow(max_speed() * world_.last_step() + contact_nodes_.shape.highest);
     return box;
 }
 

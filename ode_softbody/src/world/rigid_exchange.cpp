@@ -5,6 +5,7 @@
 #include "world/body.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ode::soft {
 namespace {
@@ -28,6 +29,8 @@ void RigidExchange::begin_step(dWorldID world, std::span<const std::unique_ptr<B
     stepped_ = false;
     h_ = h;
     shadow_.clear();
+    dVector3 gravity;
+    dWorldGetGravity(world, gravity);
     gather_islands(world, bodies, h, dt);
     lay_aside_sleepers();
     for (Contact& contact : contact_)
@@ -45,7 +48,9 @@ void RigidExchange::begin_step(dWorldID world, std::span<const std::unique_ptr<B
             RigidShadow& shadow = shadow_[contact.shadow];
             if (contact.law->bearing())
                 shadow.set_softening(std::min(shadow.softening(), contact.law->softening()));
-            contact.law->begin_step(*shape, pair.law, body->inverse_mass_, body->contact_substep());
+            ContactLaw law = pair.law;
+            law.weight = body->total_mass() * std::hypot(gravity[0], gravity[1], gravity[2]);
+            contact.law->begin_step(*shape, law, body->inverse_mass_, body->contact_substep());
         }
     }
     std::erase_if(contact_, [](const Contact& contact) { return !contact.current; });
