@@ -70,6 +70,7 @@ typedef struct dSoftWorldStats {
     unsigned long body_substeps;  /**< bodies moved by a substep: those at rest are not */
     unsigned long mirror_steps;   /**< steps of jointed rigid bodies near soft ones */
     unsigned long rigid_contacts; /**< contacts between rigid bodies that bore force in a substep */
+    unsigned long modal_substeps; /**< of body_substeps, those of bodies in their modes */
 } dSoftWorldStats;
 DSOFT_API int dSoftWorldGetStats(dSoftWorldID world, dSoftWorldStats* stats);
 
@@ -312,6 +313,25 @@ typedef struct dSoftSubstep {
  * attempt reach no rigid body. */
 typedef void dSoftSubstepCallback(void* data, const dSoftSubstep* substep);
 
+/** One body that moves in its vibration modes (tier.h) at the end of a substep:
+ * x = center + R (X + sum of shape_k amplitude_k), see dSoftBodyGetModalBasis(). Since the view
+ * before, which may be as long ago as a step, it has rung undisturbed but for a push at the
+ * beginning. Borrowed. */
+typedef struct dSoftModalState {
+    unsigned struct_size;
+    dSoftBodyID body;
+    dReal time; /**< [s] since the world's creation */
+    dReal dt;   /**< [s] */
+    int mode_count;
+    const dReal* amplitude; /**< of each mode [kg^1/2 m] */
+    const dReal* rate;      /**< its derivative [kg^1/2 m/s] */
+    dVector3 center;        /**< of the frame: of a free body the centre of mass [m] */
+    dMatrix3 rotation;      /**< from the frame to the world, as ODE stores it */
+    dVector3 velocity;      /**< of the centre [m/s] */
+    dVector3 spin;          /**< [rad/s] */
+} dSoftModalState;
+typedef void dSoftModalCallback(void* data, const dSoftModalState* state);
+
 /** Called once a step, after its substeps and before ODE's own step.
  * @param time  at the end of the step [s]. */
 typedef void dSoftStepCallback(void* data, dSoftWorldID world, dReal time);
@@ -330,6 +350,9 @@ typedef struct dSoftObserver {
     dSoftStepCallback* on_step;
     dSoftBodyEndCallback* on_body_end;
     dSoftWorldEndCallback* on_world_end;
+    dSoftModalCallback* on_modal; /**< in place of on_substep for bodies in their modes, whose nodes
+                                       are then worked out for nobody; NULL: on_substep is called
+                                       for all bodies alike */
 } dSoftObserver;
 
 DSOFT_API int dSoftWorldAddObserver(dSoftWorldID world, const dSoftObserver* observer);

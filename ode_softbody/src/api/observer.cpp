@@ -14,10 +14,17 @@ public:
 
     void* data() const noexcept { return call_.data; }
 
-    bool wants_substeps() const noexcept override { return call_.on_substep; }
+    bool wants_substeps() const noexcept override { return call_.on_substep || call_.on_modal; }
+    bool takes_modes() const noexcept override { return call_.on_modal || !call_.on_substep; }
 
     void on_substep(const SubstepView& view) noexcept override {
         const Body& body = view.body;
+        if (body.rings() && call_.on_modal) {
+            show_modes(view);
+            return;
+        }
+        if (!call_.on_substep)
+            return;
         const auto& triangles = body.surface().triangle;
         dSoftSubstep substep{};
         substep.struct_size = sizeof substep;
@@ -49,6 +56,29 @@ public:
     }
 
 private:
+    void show_modes(const SubstepView& view) const noexcept {
+        const ModalMotion& motion = *view.body.modal_motion();
+        const ModalState& now = motion.state();
+        dSoftModalState state{};
+        state.struct_size = sizeof state;
+        state.body = to_id(view.body);
+        state.time = view.time;
+        state.dt = view.dt;
+        state.mode_count = static_cast<int>(motion.basis().modes);
+        state.amplitude = now.amplitude.data();
+        state.rate = now.rate.data();
+        const Vec3 spin = motion.spin();
+        const Mat3 turn = now.turn.toRotationMatrix();
+        for (int i = 0; i < 3; ++i) {
+            state.center[i] = now.center[i];
+            state.velocity[i] = now.velocity[i];
+            state.spin[i] = spin[i];
+            for (int j = 0; j < 3; ++j)
+                state.rotation[4 * i + j] = turn(i, j);
+        }
+        call_.on_modal(call_.data, &state);
+    }
+
     dSoftObserver call_;
 };
 

@@ -35,6 +35,24 @@ const char* dSoftBodyGetTier(dSoftBodyID id) {
         ->name.data();
 }
 
+int dSoftBodyGetModalBasis(dSoftBodyID id, dSoftModalBasis* basis) {
+    Body* body = live(id, __func__);
+    if (!body || !body->rings())
+        return 0;
+    const ModalBasis& own = body->modal_motion()->basis();
+    static_assert(sizeof(Vec3) == 3 * sizeof(dReal));
+    dSoftModalBasis all{};
+    all.mode_count = static_cast<int>(own.modes);
+    all.node_count = static_cast<int>(own.nodes());
+    all.identity = &own;
+    all.omega = own.omega.data();
+    all.decay = own.decay.data();
+    all.rest = own.rest.front().data();
+    all.shape = own.shape.data();
+    all.stride = static_cast<int>(own.columns);
+    return copy_out(__func__, all, basis);
+}
+
 int dSoftBodyGetTierStatus(dSoftBodyID id, dSoftTierStatus* status) {
     Body* body = live(id, __func__);
     if (!body)

@@ -66,6 +66,7 @@ int dSoftWorldGetStats(dSoftWorldID id, dSoftWorldStats* out) {
     all.body_substeps = stats.body_substeps;
     all.mirror_steps = world->exchange().mirror_steps();
     all.rigid_contacts = world->exchange().rigid_contacts();
+    all.modal_substeps = world->stats().modal_substeps;
     all.observer_calls = stats.observer_calls;
     all.seconds = stats.seconds;
     all.observer_seconds = stats.observer_seconds;

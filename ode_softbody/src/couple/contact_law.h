@@ -18,6 +18,7 @@ struct ContactLaw {
     /// (1 - nu^2) / E of the rigid side's solid, which yields to a point like any other; 0: rigid
     /// [1/Pa].
     double rigid_compliance = 0;
+    double weight = 0; ///< of the soft body, which it may come to rest under [N]
 
     bool operator==(const ContactLaw&) const = default;
 };

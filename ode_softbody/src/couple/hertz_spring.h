@@ -68,6 +68,12 @@ public:
         }
         return curved_energy(root(depth));
     }
+    /// Of all that gives way, the share that this spring is; the rest is the mesh's.
+    double own_share(double depth) const noexcept {
+        if (depth <= 0)
+            return 0;
+        return depth / (depth + c_ * std::fmin(force(depth), end_force_));
+    }
     double end_depth() const noexcept { return end_depth_; } ///< of the curved part [m]
     double end_force() const noexcept { return end_force_; } ///< there [N]
     double steep() const noexcept { return steep_; }         ///< largest stiffness [N/m]

@@ -62,7 +62,7 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
         shape_.kind == ShapeKind::convex ? samples_.reach() : shape_.size.norm() + shape_.size.x();
     const double fastest = std::sqrt(fastest2) + motion.spin.norm() * span;
     look_again_in_ = time_to_cross(nearest, fastest);
-    const double gap = closest - (recess_.empty() ? 0 : SurfaceNodes::kBulge * nodes_.mean_edge);
+    const double gap = closest - nodes_.shape.highest;
     if (gap > 0 && !samples_.is_near())
         quiet_in_ = time_to_cross(gap, fastest);
 }

@@ -127,18 +127,27 @@ void NodeContact::prepare_points() {
     if (!bears_by_point(nodes_, law_) || !(ball || flat))
         return;
     const double curvature = ball ? 1 / shape_.size.x() : 0;
+    std::size_t points = 0;
+    std::size_t dented = 0;
     for (std::size_t i = 0; i < nodes_.node.size(); ++i) {
+        recess_.push_back(0);
+        if (!ball && !nodes_.shape.bulges(i))
+            continue;
         const int node = nodes_.node[i];
         const int triangle = nodes_.fan(node)[0];
         const auto& corner = nodes_.triangle[index(triangle)];
         Vec3 weight = Vec3::Zero();
         weight[std::find(corner.begin(), corner.end(), node) - corner.begin()] = 1;
-        const bool point = ball || nodes_.elastic.bulges(i);
-        recess_.push_back(
-            point ? point_spring(nodes_, triangle, weight, curvature, law_.rigid_compliance)
-                        .end_depth()
-                  : 0);
+        const HertzSpring spring =
+            point_spring(nodes_, triangle, weight, curvature, law_.rigid_compliance);
+        recess_[i] = spring.end_depth();
+        ++points;
+        dented += spring.force(PoleContact::kHold * spring.end_depth()) < law_.weight;
     }
+    // A body that would rest where the mesh is the spring stands on its nodes: a point that can't
+    // follow the surface would be left, and what is in by then would be energy from nowhere.
+    if (!ball && 2 * dented > points)
+        recess_.clear();
 }
 
 unsigned long NodeContact::find(const NodeArray& position, const NodeArray& velocity,

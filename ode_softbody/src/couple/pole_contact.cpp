@@ -9,8 +9,6 @@
 namespace ode::soft {
 namespace {
 
-constexpr double kHold = 0.7; ///< of the depth at which the mesh has become the spring
-
 std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
 /// Largest value of a.w + sum of w_j w_k b_i over the triangle. @param w  out: where.
@@ -87,7 +85,7 @@ void PoleContact::climb(Pole& pole, const NodeArray& position, const Pose& shape
 
 void PoleContact::look(std::span<const int> candidate, const NodeArray& position,
                        const Pose& shape) noexcept {
-    const PointElasticity& elastic = surface_.elastic;
+    const SurfaceShape& smooth = surface_.shape;
     std::size_t kept = 0;
     const auto known = [&](int node) {
         return std::any_of(pole_.begin(), pole_.begin() + static_cast<std::ptrdiff_t>(kept),
@@ -103,7 +101,7 @@ void PoleContact::look(std::span<const int> candidate, const NodeArray& position
     double deepest = -std::numeric_limits<double>::infinity();
     for (const int i : candidate) {
         const double depth = depth_of(position, shape, surface_.node[index(i)]);
-        if (elastic.bulges(index(i)) && depth > deepest) {
+        if (smooth.bulges(index(i)) && depth > deepest) {
             deepest = depth;
             first = i;
         }
@@ -115,14 +113,15 @@ void PoleContact::look(std::span<const int> candidate, const NodeArray& position
     for (const int i : candidate) {
         if (kept == kMostPoles)
             break;
-        if (!elastic.bulges(index(i)))
+        if (!smooth.bulges(index(i)))
             continue;
-        const double turn = elastic.curvature[index(i)][0] * surface_.mean_edge;
-        const Vec3 apart = elastic.normal[index(i)] - elastic.normal[index(first)];
+        const double turn = smooth.curvature[index(i)][0] * surface_.mean_edge;
+        const Vec3 apart = smooth.normal[index(i)] - smooth.normal[index(first)];
         if (i != first && apart.squaredNorm() > turn * turn)
             continue;
         Pole pole;
         pole.node = surface_.node[index(i)];
+        pole.is_barred = pole_count_ > 0; // beside others
         climb(pole, position, shape);
         if (pole.node == surface_.node[index(i)] && !known(pole.node))
             pole_[kept++] = pole;
@@ -140,7 +139,7 @@ void PoleContact::find_deepest(Pole& pole, const NodeArray& position,
         Vec3 depth;
         for (int i = 0; i < 3; ++i)
             depth[i] = depth_of(position, shape, corner[index(i)]);
-        const std::array<double, 3>& bulge = elastic.bulge[index(t)];
+        const std::array<double, 3>& bulge = surface_.shape.bulge[index(t)];
         const std::array<double, 3> coupling = corner_coupling(surface_, t);
         Vec3 lifted = depth;
         std::array<double, 3> rise = bulge;
@@ -159,21 +158,21 @@ void PoleContact::find_deepest(Pole& pole, const NodeArray& position,
         pole.touch.depth =
             depth.dot(w) + w[1] * w[2] * bulge[0] + w[2] * w[0] * bulge[1] + w[0] * w[1] * bulge[2];
         pole.touch.triangle = t;
-        pole.touch.at.weight = w;
+        pole.weight = w;
     }
-    place(pole.touch, position);
+    place(pole, position);
 }
 
 void PoleContact::follow(Pole& pole, const NodeArray& position, const Pose& shape) const noexcept {
     const auto& corner = surface_.triangle[index(pole.touch.triangle)];
-    const std::array<double, 3>& bulge = surface_.elastic.bulge[index(pole.touch.triangle)];
-    const Vec3& w = pole.touch.at.weight;
+    const std::array<double, 3>& bulge = surface_.shape.bulge[index(pole.touch.triangle)];
+    const Vec3& w = pole.weight;
     double depth = 0;
     for (int i = 0; i < 3; ++i)
         depth += w[i] * depth_of(position, shape, corner[index(i)]) +
                  w[(i + 1) % 3] * w[(i + 2) % 3] * bulge[index(i)];
     pole.touch.depth = depth;
-    place(pole.touch, position);
+    place(pole, position);
 }
 
 bool PoleContact::repeats_another(std::size_t p) const noexcept {
@@ -183,11 +182,53 @@ bool PoleContact::repeats_another(std::size_t p) const noexcept {
         });
 }
 
-void PoleContact::place(TriangleTouch& touch, const NodeArray& position) const noexcept {
-    touch.at.point.setZero();
-    const auto& corner = surface_.triangle[index(touch.triangle)];
+void PoleContact::bar(Pole& pole) noexcept {
+    pole.is_barred = true;
+    pole.held = pole.touches = false;
+    pole.state = {};
+}
+
+void PoleContact::place(Pole& pole, const NodeArray& position) const noexcept {
+    TrianglePoint& at = pole.touch.at;
+    at.weight = pole.weight;
+    at.point.setZero();
+    const auto& corner = surface_.triangle[index(pole.touch.triangle)];
     for (int i = 0; i < 3; ++i)
-        touch.at.point += touch.at.weight[i] * position[index(corner[index(i)])];
+        at.point += at.weight[i] * position[index(corner[index(i)])];
+}
+
+// Stress that answers to E + beta dE/dt answers, in contact that rolls at v, to the dent of beta
+// later: all pressure is shifted ahead by beta v, and resists rolling by beta v F (as
+// N. V. Brilliantov and T. Poeschel, Europhys. Lett. 42 (1998), doi:10.1209/epl/i1998-00281-7).
+// That is for what the mesh doesn't yield by itself; its own part lags by itself.
+void PoleContact::run_ahead(Pole& pole, const NodeArray& position, const Pose& shape,
+                            double dt) const noexcept {
+    const Vec3 now = shape.to_local(pole.touch.at.point);
+    if (!pole.state.bears || pole.held)
+        pole.trail = now;
+    const auto& corner = surface_.triangle[index(pole.touch.triangle)];
+    double relaxation = 0;
+    double curvature = 0;
+    for (int i = 0; i < 3; ++i) {
+        const std::size_t n = index(surface_.elastic.place[index(corner[index(i)])]);
+        relaxation += pole.weight[i] * surface_.elastic.relaxation[n];
+        curvature += pole.weight[i] * surface_.shape.curvature[n][0];
+    }
+    const double depth = pole.touch.depth;
+    const double lag = relaxation * pole.state.point.own_share(depth);
+    // The trail follows within the time of lag, so that it is left behind by v times lag.
+    pole.trail += std::fmin(1, dt / std::fmax(lag, dt)) * (now - pole.trail);
+    Vec3 ahead = shape.rotation * (now - pole.trail);
+    ahead -= pole.state.normal.dot(ahead) * pole.state.normal;
+    clamp_length(ahead, std::sqrt(std::fmax(0.0, depth) / curvature));
+    const Vec3 e1 = position[index(corner[1])] - position[index(corner[0])];
+    const Vec3 e2 = position[index(corner[2])] - position[index(corner[0])];
+    const Vec3 across = e1.cross(e2);
+    const double scale = 1 / across.squaredNorm();
+    const double w1 = scale * across.dot(ahead.cross(e2));
+    const double w2 = scale * across.dot(e1.cross(ahead));
+    pole.touch.at.weight += Vec3(-w1 - w2, w1, w2);
+    pole.touch.at.point += w1 * e1 + w2 * e2;
 }
 
 double PoleContact::find_touching(const NodeArray& position, const NodeArray& velocity,
@@ -199,27 +240,30 @@ double PoleContact::find_touching(const NodeArray& position, const NodeArray& ve
     for (std::size_t p = 0; p < pole_count_; ++p) {
         Pole& pole = pole_[p];
         TouchState& state = pole.state;
-        // Where the mesh has become the spring, its dent would drive the point about.
         if (state.bears && pole.touch.depth > kHold * state.point.end_depth())
             pole.held = true;
         if (pole.held) {
             follow(pole, position, shape);
             pole.held = pole.touch.depth > 0;
-            // Elsewhere the surface is in already: that depth would be energy from nowhere.
             if (!pole.held)
-                state.overlap = {};
+                bar(pole);
         }
         if (!pole.held) {
             climb(pole, position, shape);
             find_deepest(pole, position, shape);
         }
         if (repeats_another(p)) {
-            pole.touches = false;
+            bar(pole);
             continue;
         }
+        pole.is_barred &= pole.touch.depth > 0;
+        pole.touches = false;
+        if (pole.is_barred)
+            continue;
         tests += surface_.fan(pole.node).size();
         const Vec3 inward = shape_->distance(shape.to_local(pole.touch.at.point)).normal;
         state.normal = -(shape.rotation * inward);
+        run_ahead(pole, position, shape, dt);
         pole.touch.press = {};
         pole.touch.slip = slip_at(pole.touch, surface_, velocity, rigid.motion());
         const Vec3& slip = pole.touch.slip;
@@ -239,8 +283,8 @@ double PoleContact::find_touching(const NodeArray& position, const NodeArray& ve
         }
         // What the mesh yields there: the contact may roll on.
         state.is_point = true;
-        state.point = point_spring(surface_, pole.touch.triangle, pole.touch.at.weight, 0,
-                                   law_.rigid_compliance);
+        state.point =
+            point_spring(surface_, pole.touch.triangle, pole.weight, 0, law_.rigid_compliance);
         pole.touch.damping = std::fmin(state.stiffness * law_.damping, kDampingShare * light / dt_);
         if (law_.friction > 0)
             load += grip_load(pole.touch, state, dt, rigid);

@@ -20,6 +20,9 @@ namespace ode::soft {
 class PoleContact {
 public:
     static constexpr std::size_t kMostPoles = 8;
+    /// Of the depth at which the mesh has become the spring. Deeper, the point stays where it is on
+    /// the surface, or its dent would drive it about.
+    static constexpr double kHold = 0.7;
 
     explicit PoleContact(const SurfaceNodes& surface) : surface_(surface) {}
 
@@ -57,8 +60,13 @@ private:
         bool touches = false;
         TriangleTouch touch;
         TouchState state;
-        double force = 0;  ///< lately [N]
-        bool held = false; ///< where it is on the surface
+        Vec3 weight = Vec3::Zero(); ///< where it is on its triangle
+        Vec3 trail = Vec3::Zero();  ///< where it was, lately, in the shape's frame [m]
+        double force = 0;           ///< lately [N]
+        bool held = false;          ///< where it is on the surface
+        /// Elsewhere a pole has borne that the surface is in by here: its depth would be energy
+        /// from nowhere. Till the surface has been out, its nodes bear.
+        bool is_barred = false;
     };
 
     double depth_of(const NodeArray& position, const Pose& shape, int node) const noexcept;
@@ -70,7 +78,11 @@ private:
     void follow(Pole& pole, const NodeArray& position, const Pose& shape) const noexcept;
     /// Two nodes as deep as each other share one pole between them.
     bool repeats_another(std::size_t pole) const noexcept;
-    void place(TriangleTouch& touch, const NodeArray& position) const noexcept;
+    static void bar(Pole& pole) noexcept;
+    /// Where the pressure's centre is: ahead of the deepest point, if this rolls on.
+    void run_ahead(Pole& pole, const NodeArray& position, const Pose& shape,
+                   double dt) const noexcept;
+    void place(Pole& pole, const NodeArray& position) const noexcept;
 
     const SurfaceNodes& surface_;
     const RigidShape* shape_ = nullptr;

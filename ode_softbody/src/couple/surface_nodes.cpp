@@ -49,6 +49,7 @@ SurfaceNodes::SurfaceNodes(const TetMesh& mesh, const Surface& surface,
     const auto middle = ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2);
     std::nth_element(ratio.begin(), middle, ratio.end());
     mass_per_area = *middle;
+    shape = measure_shape(mesh, *this);
 }
 
 } // namespace ode::soft

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "couple/surface_shape.h"
 #include "mesh/surface.h"
 #include "mesh/tet_mesh.h"
 
@@ -9,33 +10,20 @@
 
 namespace ode::soft {
 
-/// What a point contact meets at each surface node, at rest (measure_elasticity()). Entries run
-/// parallel to SurfaceNodes::node, those of `bulge` to its triangles.
+/// How a point contact's surface yields at each node, at rest (measure_elasticity()). Entries run
+/// parallel to SurfaceNodes::node.
 struct PointElasticity {
     bool known() const noexcept { return !modulus.empty(); }
-    /// Round enough to meet a flat face in a point.
-    bool bulges(std::size_t i) const noexcept { return curvature[i][1] > 0.1 * curvature[i][0]; }
-
     std::vector<double> modulus; ///< E / (1 - nu^2), of the softest solid there [Pa]
-    /// Principal curvatures, the larger first, positive where the surface bulges; zeros at sharp
-    /// edges, where a mesh doesn't tell [1/m].
-    std::vector<std::array<double, 2>> curvature;
     std::vector<double>
-        compliance;           ///< of the mesh, as part of a half-space, to a normal load [m/N]
-    std::vector<Vec3> normal; ///< outward, in the rest frame
-    std::vector<int> place;   ///< of each mesh node in the arrays above; -1: inside
-    /// Height of the curved surface over the facet at corner weights w: sum of w_j w_k bulge_i over
-    /// the sides, each opposite corner i [m]; 0 where an end doesn't bulge.
-    std::vector<std::array<double, 3>> bulge;
+        compliance; ///< of the mesh, as part of a half-space, to a normal load [m/N]
+    std::vector<double> relaxation; ///< beta of the same solid [s]
+    std::vector<int> place;         ///< of each mesh node in the arrays above; -1: inside
 };
 
 /// What contact knows of a body's surface, from the rest shape. The first arrays run parallel, one
 /// entry a surface node.
 struct SurfaceNodes {
-    /// Of an edge: no curved surface that contact takes for one stands out farther between nodes.
-    /// (Ten facets round a circle: 0.08.)
-    static constexpr double kBulge = 0.1;
-
     SurfaceNodes() = default;
     /// @param mass  of every mesh node [kg].
     SurfaceNodes(const TetMesh& mesh, const Surface& surface, std::span<const double> mass);
@@ -50,6 +38,7 @@ struct SurfaceNodes {
     std::vector<std::array<double, 3>> side;  ///< length opposite each corner, at rest [m]
     std::vector<double> lightest;             ///< least nodal mass of each triangle [kg]
 
+    SurfaceShape shape;
     PointElasticity elastic; ///< empty: contacts are springs as stiff as the substep allows
     /// What each mesh node yields along its normal that its motion doesn't show, because it moves
     /// in few modes [m/N]; empty: nothing.

@@ -324,9 +324,9 @@ Aabb Body::aabb() noexcept {
     if (!modes_)
         for (const int node : surface_.node)
             box.include(state_.position[static_cast<std::size_t>(node)]);
-    // The pairs recorded now serve the whole step that follows. Between its nodes a bulge stands
-    // out.
-    box.grow(max_speed() * world_.last_step() + SurfaceNodes::kBulge * contact_nodes_.mean_edge);
+    // The pairs recorded now serve the whole step that follows; contact begins where the smooth
+    // surface does.
+    box.grow(max_speed() * world_.last_step() + contact_nodes_.shape.highest);
     return box;
 }
 

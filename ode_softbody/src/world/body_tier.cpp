@@ -227,8 +227,7 @@ bool Body::blow_is_near(double steps) noexcept {
         if (shape->kind == ShapeKind::probed || shape->kind == ShapeKind::convex)
             return true; // whose distance takes more to tell
         const Pose pose = pose_of(shape->body);
-        const double reach =
-            steps * world_.last_step() * speed + SurfaceNodes::kBulge * contact_nodes_.mean_edge;
+        const double reach = steps * world_.last_step() * speed + contact_nodes_.shape.highest;
         return std::any_of(contact_nodes_.node.begin(), contact_nodes_.node.end(), [&](int node) {
             const Vec3 x = state_.position[static_cast<std::size_t>(node)];
             return shape->distance_at(pose, x).distance < reach;

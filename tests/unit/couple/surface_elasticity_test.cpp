@@ -99,21 +99,21 @@ TEST(SurfaceElasticity, SeesABallsCurvatureExactly) {
     const double radius = 0.05;
     const Measured m(make_sphere(radius, 3));
     for (std::size_t i = 0; i < m.nodes.node.size(); ++i) {
-        EXPECT_NEAR(m.nodes.elastic.curvature[i][0], 1 / radius, 1e-9 / radius);
-        EXPECT_NEAR(m.nodes.elastic.curvature[i][1], 1 / radius, 1e-9 / radius);
+        EXPECT_NEAR(m.nodes.shape.curvature[i][0], 1 / radius, 1e-9 / radius);
+        EXPECT_NEAR(m.nodes.shape.curvature[i][1], 1 / radius, 1e-9 / radius);
     }
     for (std::size_t t = 0; t < m.nodes.triangle.size(); ++t)
         for (std::size_t i = 0; i < 3; ++i) {
             const double e = m.nodes.side[t][i];
-            EXPECT_NEAR(m.nodes.elastic.bulge[t][i], e * e / (2 * radius), 1e-9 * radius);
+            EXPECT_NEAR(m.nodes.shape.bulge[t][i], e * e / (2 * radius), 1e-9 * radius);
         }
 }
 
 TEST(SurfaceElasticity, SeesNoCurvatureInABox) {
     const Measured m(make_box(Vec3(1, 1, 1), 3, 3, 3));
     for (std::size_t i = 0; i < m.nodes.node.size(); ++i) {
-        EXPECT_NEAR(m.nodes.elastic.curvature[i][0], 0, 1e-12);
-        EXPECT_FALSE(m.nodes.elastic.bulges(i));
+        EXPECT_NEAR(m.nodes.shape.curvature[i][0], 0, 1e-12);
+        EXPECT_FALSE(m.nodes.shape.bulges(i));
     }
 }
 
