@@ -12,22 +12,30 @@ Impacts::Impacts(dSoftWorldID world, dSoftBodyID body, double flight)
     : world_(world), body_(body), flight_(flight),
       last_contact_(-std::numeric_limits<double>::infinity()) {
     times_.reserve(kMost);
-    dSoftWorldAddSubstepObserver(world_, on_substep, this);
+    dSoftObserver observer = {};
+    observer.struct_size = sizeof observer;
+    observer.data = this;
+    observer.on_substep = [](void* self, const dSoftSubstep* substep) {
+        static_cast<Impacts*>(self)->look(substep->body, substep->time);
+    };
+    observer.on_modal = [](void* self, const dSoftModalState* state) {
+        static_cast<Impacts*>(self)->look(state->body, state->time);
+    };
+    dSoftWorldAddObserver(world_, &observer);
 }
 
 Impacts::~Impacts() { dSoftWorldRemoveObserver(world_, this); }
 
-void Impacts::on_substep(void* self, const dSoftSubstep* substep) {
-    auto& impacts = *static_cast<Impacts*>(self);
-    if (substep->body != impacts.body_)
+void Impacts::look(dSoftBodyID body, double time) {
+    if (body != body_)
         return;
     dSoftStatus status = {};
     status.struct_size = sizeof status;
-    if (!dSoftBodyGetStatus(impacts.body_, &status) || status.contact_points == 0)
+    if (!dSoftBodyGetStatus(body_, &status) || status.contact_points == 0)
         return;
-    if (substep->time - impacts.last_contact_ > impacts.flight_ && impacts.times_.size() < kMost)
-        impacts.times_.push_back(substep->time);
-    impacts.last_contact_ = substep->time;
+    if (time - last_contact_ > flight_ && times_.size() < kMost)
+        times_.push_back(time);
+    last_contact_ = time;
 }
 
 } // namespace softsound

@@ -18,7 +18,7 @@ public:
     const std::vector<double>& times() const { return times_; } ///< [s] since the world's creation
 
 private:
-    static void on_substep(void* self, const dSoftSubstep* substep);
+    void look(dSoftBodyID body, double time);
 
     dSoftWorldID world_;
     dSoftBodyID body_;

@@ -55,7 +55,7 @@ int dSoundSetRadiation(dSoundWorldID world, const char* name) {
                      name ? name : "(null)", join(radiation_name).c_str());
             return 0;
         }
-        world->world.scene().set(settings);
+        world->world.set(settings);
         return 1;
     });
 }
@@ -69,7 +69,7 @@ int dSoundSetSampling(dSoundWorldID world, const char* name) {
                      name ? name : "(null)", join(sampling_name).c_str());
             return 0;
         }
-        world->world.scene().set(settings);
+        world->world.set(settings);
         return 1;
     });
 }
@@ -84,7 +84,7 @@ int dSoundSetAir(dSoundWorldID world, dReal density, dReal speed) {
         }
         Settings settings = world->world.scene().settings();
         settings.air = {density, speed};
-        world->world.scene().set(settings);
+        world->world.set(settings);
         return 1;
     });
 }
@@ -117,7 +117,7 @@ int dSoundSetFullScale(dSoundWorldID world, dReal pressure) {
         }
         Settings settings = world->world.scene().settings();
         settings.full_scale = pressure;
-        world->world.scene().set(settings);
+        world->world.set(settings);
         return 1;
     });
 }
@@ -137,7 +137,7 @@ int dSoundSetRate(dSoundWorldID world, int rate) {
         }
         Settings settings = world->world.scene().settings();
         settings.rate = rate;
-        world->world.scene().set(settings);
+        world->world.set(settings);
         return 1;
     });
 }

@@ -1,8 +1,13 @@
 #include "bridge/sound_world.h"
 
+#include "transfer/transfer_table.h"
+
 #include <ode/error.h>
 
+#include <array>
 #include <exception>
+#include <numbers>
+#include <stdexcept>
 #include <type_traits>
 
 namespace ode::sound {
@@ -10,6 +15,11 @@ namespace {
 
 static_assert(std::is_same_v<dReal, double>,
               "the sound path reads ODE's numbers in place: build ODE in double precision");
+
+/// Whether there is a table of how modes sound by this rule; else their nodes are listened to.
+bool hears_modes(const Settings& settings) noexcept {
+    return settings.sampling == Sampling::kSinc && settings.radiation == Radiation::kTransfer;
+}
 
 SoundWorld& self(void* data) noexcept { return *static_cast<SoundWorld*>(data); }
 
@@ -33,10 +43,23 @@ void SoundWorld::observe() {
     observer.on_substep = [](void* data, const dSoftSubstep* substep) {
         self(data).on_substep(*substep);
     };
+    if (hears_modes(scene_.settings()))
+        observer.on_modal = [](void* data, const dSoftModalState* state) {
+            self(data).on_modal(*state);
+        };
     observer.on_step = [](void* data, dSoftWorldID, dReal time) { self(data).on_step(time); };
     observer.on_body_end = [](void* data, dSoftBodyID body) { self(data).on_body_end(body); };
     observer.on_world_end = [](void* data, dSoftWorldID) { self(data).on_world_end(); };
     observing_ = dSoftWorldAddObserver(world_, &observer) != 0;
+}
+
+void SoundWorld::set(const Settings& settings) {
+    scene_.set(settings);
+    voice_model_.clear();
+    if (!observing_)
+        return;
+    ignore(); // whether modes are wanted may have changed
+    observe();
 }
 
 void SoundWorld::ignore() noexcept {
@@ -81,6 +104,74 @@ void SoundWorld::on_substep(const dSoftSubstep& substep) noexcept {
                                             3 * static_cast<std::size_t>(substep.triangle_count));
         if (!triangle.empty())
             cost_.run([&] { scene_.push(substep.body, triangle, view); });
+    } catch (const std::exception& e) {
+        failed_ = true;
+        dMessage(0, "sound stops here: %s", e.what());
+    }
+}
+
+std::shared_ptr<const ModalVoiceModel> SoundWorld::voice_model(dSoftBodyID body) {
+    dSoftModalBasis basis{};
+    basis.struct_size = sizeof basis;
+    if (!dSoftBodyGetModalBasis(body, &basis))
+        throw std::runtime_error("a body's modes can't be had");
+    std::weak_ptr<const ModalVoiceModel>& place = voice_model_[basis.identity];
+    if (auto known = place.lock())
+        return known;
+    const int* triangle = nullptr;
+    const int triangles = dSoftBodyGetTriangles(body, &triangle);
+    ModalSurface surface;
+    std::vector<int> own(static_cast<std::size_t>(basis.node_count), -1);
+    std::vector<int> node;
+    for (int t = 0; t < triangles; ++t) {
+        std::array<int, 3> corner;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto n = static_cast<std::size_t>(triangle[3 * t + static_cast<int>(c)]);
+            if (own[n] < 0) {
+                own[n] = static_cast<int>(node.size());
+                node.push_back(static_cast<int>(n));
+                surface.mesh.node.emplace_back(basis.rest + 3 * n);
+            }
+            corner[c] = own[n];
+        }
+        surface.mesh.triangle.push_back(corner);
+    }
+    ModalVoiceModel model;
+    model.omega.assign(basis.omega, basis.omega + basis.mode_count);
+    model.decay.assign(basis.decay, basis.decay + basis.mode_count);
+    for (int k = 0; k < basis.mode_count; ++k) {
+        surface.frequency.push_back(basis.omega[k] / (2.0 * std::numbers::pi));
+        for (const int n : node)
+            for (int axis = 0; axis < 3; ++axis)
+                surface.shape.push_back(
+                    static_cast<double>(basis.shape[(3 * n + axis) * basis.stride + k]));
+    }
+    const Air& air = scene_.settings().air;
+    TransferOptions options;
+    options.density = air.density;
+    options.speed = air.speed;
+    model.table = make_transfer_table(surface, options);
+    auto made = std::make_shared<const ModalVoiceModel>(std::move(model));
+    place = made;
+    return made;
+}
+
+void SoundWorld::on_modal(const dSoftModalState& state) noexcept {
+    if (failed_)
+        return;
+    try {
+        const auto modes = static_cast<std::size_t>(state.mode_count);
+        ModalView view{state.time,          state.dt,           {state.amplitude, modes},
+                       {state.rate, modes}, Vec3(state.center), {}};
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                view.rotation(i, j) = state.rotation[4 * i + j];
+        const int* triangle = nullptr;
+        const int triangles = dSoftBodyGetTriangles(state.body, &triangle);
+        cost_.run([&] {
+            scene_.push(state.body, {triangle, 3 * static_cast<std::size_t>(triangles)}, view,
+                        [&] { return voice_model(state.body); });
+        });
     } catch (const std::exception& e) {
         failed_ = true;
         dMessage(0, "sound stops here: %s", e.what());

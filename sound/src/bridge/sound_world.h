@@ -5,6 +5,8 @@
 
 #include <ode_softbody/softbody.h>
 
+#include <map>
+#include <memory>
 #include <vector>
 
 namespace ode::sound {
@@ -21,6 +23,9 @@ public:
     Scene& scene() noexcept { return scene_; }
     const Scene& scene() const noexcept { return scene_; }
 
+    /// As Scene::set().
+    void set(const Settings& settings);
+
     Listener& add_listener();
     void remove_listener(Listener& listener) noexcept;
 
@@ -33,6 +38,7 @@ public:
 
     // What the soft world tells; public for tests, which have none.
     void on_substep(const dSoftSubstep& substep) noexcept;
+    void on_modal(const dSoftModalState& state) noexcept;
     void on_step(double time) noexcept;
     void on_body_end(dSoftBodyID body) noexcept;
     void on_world_end() noexcept;
@@ -41,12 +47,15 @@ private:
     void observe();
     void ignore() noexcept;
     void play_out() noexcept;
+    std::shared_ptr<const ModalVoiceModel> voice_model(dSoftBodyID body);
 
     dSoftWorldID world_; ///< null once it has ended
     bool observing_ = false;
     bool ended_ = false;
     bool failed_ = false; ///< out of memory, and told so
     Scene scene_;
+    /// By the identity of their modes, while some voice has them.
+    std::map<const void*, std::weak_ptr<const ModalVoiceModel>> voice_model_;
     SampledCost cost_;
     std::vector<double> padded_; ///< positions, then velocities, where the stride is three
 };

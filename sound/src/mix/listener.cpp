@@ -47,11 +47,12 @@ void Listener::begin_step(double time, double duration) {
     }
 }
 
-void Listener::splat(const FlowBlock& block, bool ghost) noexcept {
+void Listener::splat(const FlowBlock& block, bool ghost, int only) noexcept {
     SplatEar target[kEars];
     int count = 0;
     EarLine* line[kEars];
-    for (Ear& ear : ear_) {
+    for (int e = only < 0 ? 0 : only; e < (only < 0 ? kEars : only + 1); ++e) {
+        Ear& ear = ear_[static_cast<std::size_t>(e)];
         const EarPath::State& state = ear.path->at(block.sample);
         const double share = ghost ? state.ghost_share : 1.0 - state.ghost_share;
         if (share == 0.0)
@@ -96,6 +97,46 @@ void Listener::send(const FlowBlock& block) noexcept {
             splat(block, true);
             break;
         }
+}
+
+Listener::Voice& Listener::find_voice(const ModalBlock& block) {
+    for (Voice& own : voice_)
+        if (own.key == block.voice)
+            return own;
+    return voice_.emplace_back(
+        Voice{block.voice, {VoiceGains(*block.table), VoiceGains(*block.table)}});
+}
+
+void Listener::forget_voice(const void* voice) noexcept {
+    std::erase_if(voice_, [&](const Voice& own) { return own.key == voice; });
+}
+
+void Listener::send(const ModalBlock& block) {
+    if (!ear_[0].path || !ear_[0].wave || block.gain == 0.0)
+        return;
+    Voice& voice = find_voice(block);
+    // One point, four of them for the kernel's sake.
+    constexpr int kPoints = 4;
+    alignas(64) double position[4 * kPoints] = {}, area[4 * kPoints] = {};
+    alignas(64) double softening[kPoints], flow[kPoints] = {};
+    const Vec3 centre = block.center + block.rotation * block.table->centre;
+    const double least = block.table->near_limit();
+    for (int i = 0; i < kPoints; ++i) {
+        for (int k = 0; k < 3; ++k)
+            position[4 * i + k] = centre[k];
+        softening[i] = least * least;
+    }
+    const double per_gain = 1.0 / radiation_gain(settings_->radiation, settings_->air);
+    for (int e = 0; e < kEars; ++e) {
+        const EarPath::State& state = ear_[static_cast<std::size_t>(e)].path->at(block.sample);
+        const Vec3 place = state.ghost_share > 0.5 ? state.ghost : state.position;
+        flow[0] = per_gain * voice.gains[static_cast<std::size_t>(e)].flow(block, place);
+        const FlowBlock one{block.sample, kPoints, position, area,      softening,
+                            flow,         nullptr, nullptr,  block.gain};
+        splat(one, false, e);
+        if (state.ghost_share > 0.0)
+            splat(one, true, e);
+    }
 }
 
 void Listener::send(const FacetBlock& block) noexcept {

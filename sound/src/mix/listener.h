@@ -4,6 +4,7 @@
 #include "mix/limiter.h"
 #include "mix/meter.h"
 #include "mix/settings.h"
+#include "mix/voice_gains.h"
 #include "path/ear_line.h"
 #include "path/paper_line.h"
 #include "sink/sink.h"
@@ -35,6 +36,8 @@ public:
 
     void send(const FlowBlock& block) noexcept;
     void send(const FacetBlock& block) noexcept;
+    void send(const ModalBlock& block); ///< allocates when a voice is first heard
+    void forget_voice(const void* voice) noexcept;
 
     /// Hands all frames before `frame` to the sinks.
     void render(std::int64_t frame) noexcept;
@@ -78,13 +81,20 @@ private:
         Line& line() noexcept { return wave ? static_cast<Line&>(*wave) : *paper; }
     };
 
-    void splat(const FlowBlock& block, bool ghost) noexcept;
+    /// @param only  this ear; negative: all.
+    void splat(const FlowBlock& block, bool ghost, int only = -1) noexcept;
+    struct Voice {
+        const void* key;
+        std::array<VoiceGains, kEars> gains;
+    };
+    Voice& find_voice(const ModalBlock& block);
 
     const Settings* settings_;
     std::int64_t next_;
     std::int64_t frames_ = 0;
     std::int64_t dropped_ = 0;
     std::array<Ear, kEars> ear_;
+    std::vector<Voice> voice_;
     std::vector<std::weak_ptr<Sink>> sinks_;
     Meter meter_;
     std::array<Meter, kEars> ear_meter_;

@@ -70,7 +70,7 @@ Scene::Body& Scene::find(const void* body, std::span<const int> triangle) {
                                                 settings_.air.density * settings_.air.speed,
                                                 settings_.radiation == Radiation::kPaper);
     const double loud = gain(body);
-    bodies_.push_back({body, std::move(source), loud, loud});
+    bodies_.push_back({body, std::move(source), nullptr, loud, loud});
     return bodies_.back();
 }
 
@@ -127,10 +127,17 @@ void Scene::end_step(double time) {
     for (Body& body : bodies_) {
         sounding_ = &body;
         body.source->advance_to(time, *this);
-        if (body.source->is_silent())
+        if (body.voice)
+            body.voice->advance_to(time, *this);
+        if (body.is_silent())
             body.now = body.gain; // nobody hears it jump
     }
-    std::erase_if(bodies_, [](const Body& body) { return !body.key && body.source->is_silent(); });
+    std::erase_if(bodies_, [&](Body& body) {
+        if (body.key || !body.is_silent())
+            return false;
+        end_voice(body);
+        return true;
+    });
     const std::int64_t open = settings_.first_open_frame(time);
     for (const auto& listener : listeners_)
         listener->render(open);
@@ -144,6 +151,8 @@ void Scene::finish() {
     for (Body& body : bodies_) {
         sounding_ = &body;
         body.source->advance_to(time_ + kSettled, *this);
+        if (body.voice)
+            body.voice->advance_to(time_ + kSettled, *this);
     }
     for (const auto& listener : listeners_)
         listener->render(listener->last_frame());
@@ -162,6 +171,21 @@ void Scene::on_facets(const FacetBlock& block) noexcept {
     own.gain *= next_gain(settings_.send_rate());
     for (const auto& listener : listeners_)
         listener->send(own);
+}
+
+void Scene::on_modes(const ModalBlock& block) noexcept {
+    ModalBlock own = block;
+    own.gain *= next_gain(settings_.send_rate());
+    for (const auto& listener : listeners_)
+        listener->send(own);
+}
+
+void Scene::end_voice(Body& body) noexcept {
+    if (!body.voice)
+        return;
+    for (const auto& listener : listeners_)
+        listener->forget_voice(body.voice.get());
+    body.voice.reset();
 }
 
 Scene::Count Scene::count() const noexcept {

@@ -2,6 +2,7 @@
 
 #include "mix/listener.h"
 #include "source/body_source.h"
+#include "source/modal_voice.h"
 
 #include <memory>
 #include <vector>
@@ -17,6 +18,7 @@ public:
     struct Count {
         unsigned long substeps = 0;
         unsigned long gathers = 0;
+        unsigned long modal_views = 0;
         unsigned long frames = 0;
         double peak = 0.0; ///< [Pa]
         double rms = 0.0;  ///< [Pa]
@@ -38,6 +40,23 @@ public:
 
     /// One substep of one body. @param triangle  as in Surface; read at the first substep alone.
     void push(const void* body, std::span<const int> triangle, const SurfaceView& view);
+    /// The same of a body that moves in its modes. @param model  asked for at the first view alone.
+    template <class Model>
+    void push(const void* body, std::span<const int> triangle, const ModalView& view, Model model) {
+        if (!stepping_)
+            begin_step(view.time - view.dt);
+        ++count_.modal_views;
+        Body& own = find(body, triangle);
+        if (own.gain == 0.0 && own.now == 0.0)
+            return;
+        const std::shared_ptr<const ModalVoiceModel> wanted = model();
+        if (own.voice && &own.voice->model() != wanted.get())
+            end_voice(own);
+        if (!own.voice)
+            own.voice = std::make_unique<ModalVoice>(wanted, settings_.send_rate());
+        sounding_ = &own;
+        own.voice->push(view, *this);
+    }
     /// How loud a body is from now on; 1 as it is, 0 silent, and then it costs nothing. Reached in
     /// kGainTime, without a click. May come before the body's first substep.
     void set_gain(const void* body, double gain);
@@ -56,8 +75,12 @@ public:
 
 private:
     struct Body {
-        const void* key; ///< null once it has ended
-        std::unique_ptr<BodySource> source;
+        const void* key;                    ///< null once it has ended
+        std::unique_ptr<BodySource> source; ///< of its surface
+        std::unique_ptr<ModalVoice> voice;  ///< of its modes; null: it never moved in them
+        bool is_silent() const noexcept {
+            return source->is_silent() && (!voice || voice->is_silent());
+        }
         double gain; ///< wanted
         double now;  ///< heard
     };
@@ -68,6 +91,8 @@ private:
 
     void on_flow(const FlowBlock& block) noexcept override;
     void on_facets(const FacetBlock& block) noexcept override;
+    void on_modes(const ModalBlock& block) noexcept override;
+    void end_voice(Body& body) noexcept;
     double next_gain(double samples_per_second) noexcept;
     Body& find(const void* body, std::span<const int> triangle);
     void begin_step(double time);

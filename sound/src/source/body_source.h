@@ -2,9 +2,14 @@
 
 #include "source/surface.h"
 
+#include <Eigen/Core>
+
 #include <cstdint>
+#include <span>
 
 namespace ode::sound {
+
+struct TransferTable;
 
 /// Air moved by the nodes of a surface at one sample of the oversampled grid. Borrowed.
 struct FlowBlock {
@@ -29,12 +34,24 @@ struct FacetBlock {
     static constexpr int kFields = 8;
 };
 
+/// Modes of a body at one sample of the oversampled grid. Borrowed.
+struct ModalBlock {
+    std::int64_t sample;      ///< time * grid rate
+    Eigen::Vector3d center;   ///< of the body's frame at that time [m]
+    Eigen::Matrix3d rotation; ///< from the frame to the world
+    std::span<const float> amplitude, rate;
+    const TransferTable* table; ///< how they sound, in the frame
+    const void* voice;          ///< tells voices apart
+    double gain;
+};
+
 /// Takes what sources give off, in order of time for each source.
 class BlockSink {
 public:
     virtual ~BlockSink() = default;
     virtual void on_flow(const FlowBlock& block) noexcept = 0;
     virtual void on_facets(const FacetBlock& block) noexcept = 0;
+    virtual void on_modes(const ModalBlock&) noexcept {}
 };
 
 /// The sounding surface of one body. Stepping thread; allocates at the first view alone.

@@ -1,4 +1,4 @@
-// The soft world here is the test's own: these three functions stand in for libode_softbody's, so
+// The soft world here is the test's own: these functions stand in for libode_softbody's, so
 // that registration and the order of ends can be seen from outside.
 #include "bridge/sound_world.h"
 #include "physics/sound/rig.h"
@@ -35,6 +35,8 @@ int dSoftWorldRemoveObserver(dSoftWorldID, void* data) {
     return 1;
 }
 dReal dSoftWorldGetTime(dSoftWorldID) { return 0.0; }
+int dSoftBodyGetModalBasis(dSoftBodyID, dSoftModalBasis*) { return 0; }
+int dSoftBodyGetTriangles(dSoftBodyID, const int**) { return 0; }
 
 namespace ode::sound::test {
 namespace {

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "source/body_source.h"
+#include "source/resonators.h"
+#include "transfer/transfer_table.h"
+
+#include <memory>
+
+namespace ode::sound {
+
+/// A body's modes at the end of a substep: since the view before they have rung freely, but for a
+/// push at the beginning of a short one. Borrowed.
+struct ModalView {
+    double time; ///< [s]
+    double dt;   ///< [s]
+    std::span<const double> amplitude, rate;
+    Vec3 center;              ///< of the body's frame [m]
+    Eigen::Matrix3d rotation; ///< from the frame to the world
+};
+
+/// What bodies that share their modes share of their sound.
+struct ModalVoiceModel {
+    std::vector<double> omega; ///< [rad/s]
+    std::vector<double> decay; ///< [1/s]
+    TransferTable table;       ///< in the body's frame
+};
+
+/// The sound of a body that moves in its modes: amplitudes at the samples of the grid, which the
+/// listener weighs with the gains of its direction. No node is looked at.
+///
+/// Where views set in or break off (the body changes tier, ends or falls asleep) the amplitudes
+/// there are faded out of what follows, or added to it, fading, as FlowFade does to a surface: what
+/// a surface has begun goes on without a click.
+class ModalVoice {
+public:
+    static constexpr double kFadeTime = 5e-3; ///< [s], half a cosine
+
+    /// @param rate  of the grid [Hz].
+    ModalVoice(std::shared_ptr<const ModalVoiceModel> model, double rate);
+
+    void push(const ModalView& view, BlockSink& out);
+    /// No view will come before `time` [s].
+    void advance_to(double time, BlockSink& out);
+    bool is_silent() const noexcept { return state_ == State::kSilent; }
+    const ModalVoiceModel& model() const noexcept { return *model_; }
+
+private:
+    enum class State { kSilent, kRinging, kFading };
+
+    void start(const ModalView& view);
+    void emit(std::int64_t sample, const double* amplitude, const double* rate, BlockSink& out);
+    double fade_at(double time) const noexcept; ///< 1 at fade_begin_, 0 after kFadeTime
+
+    std::shared_ptr<const ModalVoiceModel> model_;
+    double rate_; ///< of the grid [Hz]
+    Resonators resonators_, undamped_;
+    State state_ = State::kSilent;
+    double seen_ = 0.0; ///< time of the last view [s]
+    double fade_begin_ = 0.0;
+    bool entering_ = false;
+    AlignedVector amplitude_, rate_of_; ///< at the last view
+    AlignedVector break_amplitude_, break_rate_;
+    AlignedVector ring_amplitude_, ring_rate_; ///< scratch: on the grid
+    AlignedVector miss_amplitude_, miss_rate_; ///< scratch: of free ringing at the view
+    AlignedVector held_amplitude_, held_rate_; ///< scratch: given off
+    std::vector<float> sent_amplitude_, sent_rate_;
+    Vec3 center_ = Vec3::Zero();
+    Vec3 before_ = Vec3::Zero();
+    Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
+};
+
+} // namespace ode::sound

@@ -1,0 +1,52 @@
+#include "source/resonators.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ode::sound {
+
+Resonators::Resonators(std::span<const double> omega, std::span<const double> decay, double rate)
+    : omega_(omega.begin(), omega.end()), decay_(decay.begin(), decay.end()),
+      damped_(omega.size()) {
+    for (AlignedVector& row : tick_)
+        row.assign(omega.size(), 0.0);
+    for (std::size_t k = 0; k < size(); ++k) {
+        // What creeps is no sound.
+        damped_[k] = std::sqrt(std::max(0.0, (omega_[k] - decay_[k]) * (omega_[k] + decay_[k])));
+        double q = 1.0, v = 0.0;
+        const auto one = [&](double a, double b) {
+            q = a, v = b;
+            const double c = std::cos(damped_[k] / rate), fade = std::exp(-decay_[k] / rate);
+            const double s = damped_[k] > 0 ? std::sin(damped_[k] / rate) / damped_[k] : 0.0;
+            const double x = fade * ((c + decay_[k] * s) * q + s * v);
+            v = fade * ((c - decay_[k] * s) * v - omega_[k] * omega_[k] * s * q);
+            q = x;
+        };
+        one(1.0, 0.0);
+        tick_[0][k] = q, tick_[2][k] = v;
+        one(0.0, 1.0);
+        tick_[1][k] = q, tick_[3][k] = v;
+    }
+}
+
+void Resonators::evolve(double time, double* amplitude, double* rate) const noexcept {
+    for (std::size_t k = 0; k < size(); ++k) {
+        const double c = std::cos(damped_[k] * time), fade = std::exp(-decay_[k] * time);
+        const double s = damped_[k] > 0 ? std::sin(damped_[k] * time) / damped_[k] : 0.0;
+        const double q = amplitude[k], v = rate[k];
+        amplitude[k] = fade * ((c + decay_[k] * s) * q + s * v);
+        rate[k] = fade * ((c - decay_[k] * s) * v - omega_[k] * omega_[k] * s * q);
+    }
+}
+
+void Resonators::tick(double* amplitude, double* rate) const noexcept {
+    const double *a = tick_[0].data(), *b = tick_[1].data();
+    const double *c = tick_[2].data(), *d = tick_[3].data();
+    for (std::size_t k = 0; k < size(); ++k) {
+        const double q = amplitude[k], v = rate[k];
+        amplitude[k] = a[k] * q + b[k] * v;
+        rate[k] = c[k] * q + d[k] * v;
+    }
+}
+
+} // namespace ode::sound
