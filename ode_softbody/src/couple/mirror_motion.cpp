@@ -140,7 +140,21 @@ void MirrorWorld::advance(double dt) noexcept {
     step(dt);
     for (std::size_t i = 0; i < body_.size(); ++i) {
         body_[i].drift += (TwinState(body_[i].twin).twist() - acceleration_[i]) / dt;
+        body_[i].borne = body_[i].contact.force.squaredNorm() != 0;
         body_[i].contact = {};
+    }
+}
+
+void MirrorWorld::spread_borne() noexcept {
+    for (bool more = true; more;) {
+        more = false;
+        for (const Joint& joint : joint_) {
+            MirroredBody* const first = joint.first ? find(joint.first) : nullptr;
+            MirroredBody* const second = joint.second ? find(joint.second) : nullptr;
+            if (!first || !second || first->borne == second->borne)
+                continue;
+            first->borne = second->borne = more = true;
+        }
     }
 }
 
@@ -148,6 +162,7 @@ void MirrorWorld::write_back() noexcept {
     if (std::none_of(body_.begin(), body_.end(), [](const auto& b) { return b.live; }))
         return;
     find_accelerations();
+    spread_borne();
     for (std::size_t i = 0; i < body_.size(); ++i) {
         MirroredBody& body = body_[i];
         body.known = body.live && body.dynamic && dBodyIsEnabled(body.app);
@@ -155,7 +170,7 @@ void MirrorWorld::write_back() noexcept {
             continue;
         body.inner = TwinState(body.twin);
         TwinState out = body.inner;
-        if (!body.propped)
+        if (!body.propped && !body.borne)
             out.set_twist(out.twist() - (h_ - dt_) / 2 * acceleration_[i]);
         out.apply(body.app);
         body.written = TwinState(body.app);

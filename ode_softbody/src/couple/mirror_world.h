@@ -24,6 +24,7 @@ struct MirroredBody {
     bool measured = false;
     bool dynamic = true;
     bool touched = false; ///< in this step
+    bool borne = false;   ///< it, or one that it is joined to, in the last substep: see RigidShadow
     bool live = false;    ///< its island has been touched since it came near: the mirror rules
     bool propped = false; ///< its island has contacts between rigid bodies
     bool current = false; ///< near in this step
@@ -40,7 +41,8 @@ struct MirroredBody {
 /// Velocities: ODE's belong half a step back (see RigidShadow). A body that comes near gets its
 /// velocity shifted by the acceleration that its joints leave it, found by two steps on trial; what
 /// is written back is shifted the other way. As long as the application leaves a body as it was
-/// written, the twin goes on from its own state, so that no shift matters.
+/// written, the twin goes on from its own state, so that no shift matters; while a contact bears
+/// it, or one that it is joined to, it is written as it moves.
 ///
 /// Allocates when a body or joint comes near that wasn't there in the step before, and in the first
 /// steps after (ODE's working memory, kept by the world). A step with the same ones allocates
@@ -89,6 +91,7 @@ private:
     void step(double dt) noexcept;
     void find_accelerations() noexcept; ///< fills acceleration_, contacts left out
     void measure_mobility() noexcept;
+    void spread_borne() noexcept; ///< over joints
     bool is_awake() const noexcept;
 
     dWorldID app_ = nullptr;

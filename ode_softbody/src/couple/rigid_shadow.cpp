@@ -58,8 +58,14 @@ RigidShadow::RigidShadow(MirroredBody& twin, double h) noexcept
 
 void RigidShadow::remember(const RigidShadow& before) noexcept {
     linger_ = before.linger_;
-    if (!asleep_)
+    if (!asleep_) {
+        resumes_ = role_ == RigidRole::free && before.bore_ && TwinState(body_) == before.written_;
+        if (resumes_) {
+            free_ = before.free_;
+            show_motion();
+        }
         return;
+    }
     if (before.asleep_) {
         rest_ = before.rest_;
         has_rest_ = before.has_rest_;
@@ -83,7 +89,7 @@ void RigidShadow::prop(const RigidShadow* before) noexcept {
     live_ = before && before->live_;
     if (live_ && before->propped_ && TwinState(body_) == before->written_) {
         free_ = before->free_;
-    } else if (!asleep_) {
+    } else if (!asleep_ && !resumes_) {
         free_.kick(external_, -(h_ - last_dt_) / 2);
     }
     show_motion();
@@ -275,7 +281,7 @@ void RigidShadow::write_back() noexcept {
         return v.norm() > threshold ? 1 - scale : 1.0;
     };
     const FreeMotion inner = free_;
-    if (!(propped_ && bore_))
+    if (!bore_)
         free_.kick(external_, -(h_ - last_dt_) / 2);
     show_motion();
     const double keep = damped(motion_.velocity, dBodyGetLinearDampingThreshold(body_),
@@ -290,7 +296,7 @@ void RigidShadow::write_back() noexcept {
     dBodySetQuaternion(body_, q);
     dBodySetLinearVel(body_, v.x(), v.y(), v.z());
     dBodySetAngularVel(body_, w.x(), w.y(), w.z());
-    if (!propped_)
+    if (!propped_ && !bore_)
         return;
     written_ = TwinState(body_);
     free_ = inner;

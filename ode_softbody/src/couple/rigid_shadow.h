@@ -26,9 +26,10 @@ enum class RigidRole {
 /// substep before the step's start, and back at the end. Thus, untouched, a free body moves as
 /// under ODE alone, for any number of substeps (orientation: to the order of ODE's own error).
 ///
-/// A pile's bodies (free, with recorded contacts between rigid bodies) are `propped`: they may be
-/// at rest, which a shift by gravity alone would turn into a blow. They enter as ODE left them, and
-/// go on from their own state as long as the application leaves them as they were written.
+/// A body that a contact bears at the step's end may be at rest, which a shift by gravity alone
+/// would show as g h / 2. It is written as it moves, and goes on from its own state as long as the
+/// application leaves it as it was written. A pile's bodies (free, with recorded contacts between
+/// rigid bodies) are `propped`: they enter as ODE left them.
 ///
 /// `unheard` is a fallback and costs accuracy: within a step the other rigid bodies are not felt,
 /// so a stack on a soft body rattles. It never gained energy in trials.
@@ -160,7 +161,8 @@ private:
     bool bore_ = false;  ///< in the last
     bool live_ = false;
     double linger_ = 0;
-    TwinState written_; ///< propped: what the application's body was given
+    bool resumes_ = false; ///< goes on from the state of the step before
+    TwinState written_;    ///< propped or borne: what the application's body was given
 };
 
 } // namespace ode::soft

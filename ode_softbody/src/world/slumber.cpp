@@ -22,8 +22,7 @@ bool moves(dBodyID body) noexcept {
            !is_still(dBodyGetAngularVel(body));
 }
 
-/// Awake, yet ready to sleep: ODE's flag allows it, and it is slower than ODE's thresholds. What
-/// ODE stores as the velocity of a body that rests on a soft one is g h / 2: see RigidShadow.
+/// Awake, yet ready to sleep: ODE's flag allows it, and it is slower than ODE's thresholds.
 bool is_quiet(dBodyID body, const RigidShadow* shadow) noexcept {
     return shadow && dBodyGetAutoDisableFlag(body) &&
            shadow->motion().velocity.norm() <= dBodyGetAutoDisableLinearThreshold(body) &&
