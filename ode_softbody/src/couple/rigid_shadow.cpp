@@ -99,7 +99,7 @@ void RigidShadow::add(const Wrench& reaction) noexcept {
     contact_.force += reaction.force;
     contact_.torque += reaction.torque;
     touched_ = true;
-    borne_ = true;
+    borne_ |= reaction.force.squaredNorm() != 0;
 }
 
 void RigidShadow::add_from_rigid(const Wrench& reaction) noexcept {
