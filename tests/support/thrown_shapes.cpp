@@ -142,9 +142,9 @@ ShapeOutcome throw_shape(Shape shape, unsigned seed) {
             const unsigned long points = soft.stats().contact_points;
             soft.step(kStep, &dWorldStep);
             const Sums now = sums_of(body, plate, energy.value);
-            out.change = now.energy / first.energy - 1;
-            out.highest = std::fmax(out.highest, out.change);
             if (soft.stats().contact_points != points) { // else ODE alone moved the body
+                out.change += (now.energy - before.energy) / first.energy;
+                out.highest = std::fmax(out.highest, out.change);
                 linear += now.linear - before.linear;
                 angular += now.angular - before.angular;
             }

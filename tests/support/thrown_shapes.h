@@ -8,9 +8,9 @@ const char* name_of(Shape shape) noexcept;
 /// What the impact of a rigid body on a free, undamped, frictionless soft plate keeps, through
 /// ODE's steps of 4 ms: without gravity, so that energy and momenta of both are constant.
 struct ShapeOutcome {
-    double change;   ///< of energy, at the end [-]
-    double highest;  ///< at the end of a step [-]
-    double momentum; ///< changes in steps with contact, of what moved at first; without it ODE
+    double change;   ///< of energy, in steps with contact [-]
+    double highest;  ///< the same, at the end of a step [-]
+    double momentum; ///< likewise, of what moved at first; without contact ODE
     double angular;  ///< alone moves the body, whose spin errs by more
     double seconds;  ///< CPU, looking at the energy included
     double substeps;
