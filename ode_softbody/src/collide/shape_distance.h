@@ -62,8 +62,11 @@ inline SurfaceDistance cylinder_distance(const Vec3& size, const Vec3& p) noexce
     return side >= cap ? SurfaceDistance{side, radial} : SurfaceDistance{cap, axial};
 }
 
-/// Exact inside; outside, near an edge, that of the nearer face's plane: too short, never of the
-/// wrong sign.
+/// From a point outside, beyond edges and corners too: to the closest point on edge or corner.
+/// @param largest  the farthest plane's.
+SurfaceDistance distance_to_hull(std::span<const TangentPlane> faces, const Vec3& p,
+                                 const SurfaceDistance& largest) noexcept;
+
 inline SurfaceDistance convex_distance(std::span<const TangentPlane> faces,
                                        const Vec3& p) noexcept {
     SurfaceDistance largest{-std::numeric_limits<double>::infinity(), Vec3::UnitZ()};
@@ -72,7 +75,7 @@ inline SurfaceDistance convex_distance(std::span<const TangentPlane> faces,
         if (distance > largest.distance)
             largest = {distance, face.normal};
     }
-    return largest;
+    return largest.distance > 0 ? distance_to_hull(faces, p, largest) : largest;
 }
 
 /// Calls `f` with the distance function of the kind, so that loops are compiled once per kind and

@@ -1,11 +1,14 @@
+#include "collide/convex_faces.h"
 #include "collide/rigid_shape.h"
 
 #include <gmock/gmock.h>
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
+#include <vector>
 
 namespace ode::soft {
 namespace {
@@ -34,10 +37,27 @@ bool inside(const RigidShape& shape, const Vec3& p, double slack) {
     case ShapeKind::cylinder:
         return p.head<2>().norm() <= s.x() + slack && std::fabs(p.z()) <= s.z() + slack;
     case ShapeKind::convex:
+        return std::all_of(shape.faces.begin(), shape.faces.end(), [&](const TangentPlane& face) {
+            return face.normal.dot(p) - face.offset <= slack;
+        });
     case ShapeKind::probed:
         break;
     }
     return false;
+}
+
+/// A skew wedge: its edges meet at sharp and blunt angles.
+RigidShape wedge() {
+    static const std::vector<TangentPlane> faces = hull_faces(std::vector<Vec3>{{-1, -1.2, -0.4},
+                                                                                {1.3, -0.9, -0.5},
+                                                                                {1.1, 1, -0.6},
+                                                                                {-0.8, 0.9, -0.3},
+                                                                                {0.2, -0.7, 1.1},
+                                                                                {0.1, 0.8, 0.9}});
+    RigidShape shape;
+    shape.kind = ShapeKind::convex;
+    shape.faces = faces;
+    return shape;
 }
 
 class RigidShapeDistance : public testing::TestWithParam<RigidShape> {
@@ -92,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, RigidShapeDistance,
                                          shape_of(ShapeKind::sphere, {1.2, 0, 0}),
                                          shape_of(ShapeKind::box, {0.5, 1.5, 0.9}),
                                          shape_of(ShapeKind::capsule, {0.6, 0, 1.1}),
-                                         shape_of(ShapeKind::cylinder, {0.8, 0, 1.3})));
+                                         shape_of(ShapeKind::cylinder, {0.8, 0, 1.3}), wedge()));
 
 TEST(RigidShapeDistance, IsDefinedOnCentresEdgesAndCorners) {
     for (const RigidShape& shape :
