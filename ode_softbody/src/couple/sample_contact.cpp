@@ -14,6 +14,9 @@ constexpr double kEntryDepth = 0.25; ///< of a sample first seen inside, in mean
 // Samples share nodes: at half an edge apart on a line, about four press on a node's triangles.
 // Node contacts take the other half of what the nodes can bear.
 constexpr double kShare = 0.5 / 4;
+// Triangles near a sample, in the mean over all samples: within half an edge lie about ten. A flat
+// shape wholly in reach of a folded surface may need more, and grows once.
+constexpr std::size_t kPairs = 16;
 
 std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -35,6 +38,7 @@ void SampleContact::begin_step(const RigidShape& shape, const ContactLaw& law, d
     touch_.clear();
     touch_.reserve(sample_.size());
     close_.reserve(surface_.triangle.size());
+    pair_.reserve(kPairs * sample_.size());
 }
 
 void SampleContact::forget() noexcept {
