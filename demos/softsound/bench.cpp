@@ -45,6 +45,7 @@ constexpr Benchmark kBenchmarks[] = {
     {"error-vs-time", "error_vs_time",
      "Waveform, pitch and decay error against run time, by integrator, element and step; some "
      "minutes"},
+    {"realtime", "realtime", "Run time of the tiers, each with its waveform error; a minute"},
     {"radiation", "radiation",
      "Radiation models in dB against closed forms and finer boundary elements, ka 0.05 to 10; "
      "three "

@@ -37,7 +37,11 @@ Fallen fall(TierChoice tier, int order, double speed, double time,
             basis = body.modal_motion()->shared_basis();
         ModalMotion seen(basis);
         seen.take(body.state(), {});
-        out.rate.push_back(seen.state().rate);
+        // Of amplitudes, not of their rates: the explicit velocity lags by half a substep.
+        AlignedVector<double> swing = seen.state().amplitude;
+        for (std::size_t k = 0; k < swing.size(); ++k)
+            swing[k] *= basis->omega[k];
+        out.rate.push_back(std::move(swing));
     }
     out.basis = basis;
     out.changes = static_cast<int>(body.tier_changes());
