@@ -60,6 +60,15 @@ DSOUND_API int dSoundSetRadiation(dSoundWorldID world, const char* name);
  *          ceil(3/(fmax dt)), Gaussian splat two samples wide. */
 DSOUND_API int dSoundSetSampling(dSoundWorldID world, const char* name);
 
+/** What stands between hides: rays through a space of the application's, from groups of each
+ * surface's triangles to each ear, 4000 a second of simulated time at most, none where nothing is
+ * near the way. Geoms that hide or come clear fade within 20 ms. Soft bodies hide others, too, but
+ * no body itself; what goes round an edge is not heard.
+ * @param space          searched with those inside it; NULL: nothing hides (default). Must not end
+ *                       before the sound world's listeners unless NULL is set first.
+ * @param category_bits  a geom hides when it has one of these. */
+DSOUND_API int dSoundSetOcclusion(dSoundWorldID world, dSpaceID space, unsigned long category_bits);
+
 /** Air: density [kg/m^3] and speed of sound [m/s]; defaults 1.21 and 343 (20 C, 1 atm). */
 DSOUND_API int dSoundSetAir(dSoundWorldID world, dReal density, dReal speed);
 
@@ -78,6 +87,7 @@ typedef struct dSoundStats {
     dReal seconds;                   /**< CPU time spent on sound [s] */
     dReal peak;                      /**< largest |sample| at any ear [Pa] */
     dReal rms;                       /**< over all rendered frames and ears [Pa] */
+    unsigned long rays;              /**< cast to see what is hidden */
 } dSoundStats;
 DSOUND_API int dSoundGetStats(dSoundWorldID world, dSoundStats* stats);
 

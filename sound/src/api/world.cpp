@@ -74,6 +74,14 @@ int dSoundSetSampling(dSoundWorldID world, const char* name) {
     });
 }
 
+int dSoundSetOcclusion(dSoundWorldID world, dSpaceID space, unsigned long category_bits) {
+    require_id(world, "dSoundSetOcclusion");
+    return guarded("dSoundSetOcclusion", 0, [&] {
+        world->world.occlusion().set(space, category_bits);
+        return 1;
+    });
+}
+
 int dSoundSetAir(dSoundWorldID world, dReal density, dReal speed) {
     require_id(world, "dSoundSetAir");
     return guarded("dSoundSetAir", 0, [&] {
@@ -161,6 +169,7 @@ int dSoundGetStats(dSoundWorldID world, dSoundStats* stats) {
         all.seconds = world->world.seconds();
         all.peak = count.peak;
         all.rms = count.rms;
+        all.rays = world->world.occlusion().rays();
         // An app built against an older header gets the fields that it knows.
         std::memcpy(stats, &all, std::min<std::size_t>(stats->struct_size, sizeof all));
         return 1;
