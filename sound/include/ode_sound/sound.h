@@ -62,8 +62,10 @@ DSOUND_API int dSoundSetSampling(dSoundWorldID world, const char* name);
 
 /** What stands between hides: rays through a space of the application's, from groups of each
  * surface's triangles to each ear, 4000 a second of simulated time at most, none where nothing is
- * near the way. Geoms that hide or come clear fade within 20 ms. Soft bodies hide others, too, but
- * no body itself; what goes round an edge is not heard.
+ * near the way. What hides or comes clear fades within 20 ms. "rayleigh" and "paper" lose just the
+ * hidden triangles; rules that count all faces get quieter by the part that is hidden, since front
+ * and back must go on to cancel. Soft bodies hide others, too, but no body itself; what goes round
+ * an edge is not heard.
  * @param space          searched with those inside it; NULL: nothing hides (default). Must not end
  *                       before the sound world's listeners unless NULL is set first.
  * @param category_bits  a geom hides when it has one of these. */

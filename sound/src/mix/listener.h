@@ -40,9 +40,8 @@ public:
     void send(const ModalBlock& block); ///< allocates when a voice is first heard
     void forget_voice(const void* voice) noexcept;
 
-    /// What this listener sees of a source; made at the first call. @param points  its blocks
-    /// carry.
-    Shade& shade(const BodySource& source, int points);
+    /// What this listener sees of a source; made at the first call.
+    Shade& shade(const BodySource& source);
     bool has_shade(const BodySource& source) const noexcept {
         return find_shade(&source) != nullptr;
     }

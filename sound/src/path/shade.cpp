@@ -7,10 +7,8 @@ namespace ode::sound {
 void Shade::advance(std::int64_t sample, double rate) noexcept {
     if (clear_ || sample == sample_)
         return;
-    const double passed =
-        sample_ == INT64_MIN || sample < sample_ ? 1.0 : static_cast<double>(sample - sample_);
     sample_ = sample;
-    const double step = passed / (kFade * rate);
+    const double step = 1.0 / (kFade * rate); // a body that slept meanwhile goes on where it was
     bool clear = true;
     for (auto& ear : patch_)
         for (Patch& p : ear) {
@@ -18,6 +16,12 @@ void Shade::advance(std::int64_t sample, double rate) noexcept {
             clear = clear && p.now == 1.0 && p.wanted == 1.0;
         }
     clear_ = clear;
+}
+
+void Shade::set_patches(int count) noexcept {
+    patches_ = count;
+    for (auto& ear : patch_)
+        std::fill(ear + count, ear + Patches::kMost, Patch{});
 }
 
 double Shade::share(int ear) const noexcept {

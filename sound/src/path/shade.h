@@ -32,7 +32,7 @@ public:
     /// Part of the patches that an ear sees. For rules that count all faces: to hide some of them
     /// would undo that front and back cancel, and a body in flight would thump.
     double share(int ear) const noexcept;
-    void set_patches(int count) noexcept { patches_ = count; } ///< that are looked at
+    void set_patches(int count) noexcept; ///< that are looked at
     double gain(int ear, int patch) const noexcept { return patch_[ear][patch].now; }
 
     /// `from` as the ear gets it: times its patch's gain. Allocates at the first call.
