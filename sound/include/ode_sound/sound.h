@@ -90,6 +90,8 @@ typedef struct dSoundStats {
     dReal peak;                      /**< largest |sample| at any ear [Pa] */
     dReal rms;                       /**< over all rendered frames and ears [Pa] */
     unsigned long rays;              /**< cast to see what is hidden */
+    dReal latency; /**< longest mean time from the path's end to the driver of a live sink [s]; the
+                        path's own, 2.1 ms at 48 kHz, comes before */
 } dSoundStats;
 DSOUND_API int dSoundGetStats(dSoundWorldID world, dSoundStats* stats);
 
@@ -157,8 +159,8 @@ DSOUND_API dSoundSinkID dSoundSinkCreateFileAs(const char* path, const dSoundFil
  * @return 0 for sinks without a note, after a message. */
 DSOUND_API int dSoundSinkMark(dSoundSinkID sink, const char* text);
 /** Plays live on OpenAL's default device, in a context of its own, from a thread of its own. A
- * simulation slower than real time is heard with faded gaps (dSoundStats.underruns). No device: a
- * message, and a null sink instead. */
+ * simulation slower than real time is heard with faded gaps (dSoundStats.underruns). A device that
+ * is lost is waited for. No device at first: a message, and a null sink instead. */
 DSOUND_API dSoundSinkID dSoundSinkCreateOpenAL(void);
 /** Plays out and closes. A listener that still has it lets it go. */
 DSOUND_API void dSoundSinkDestroy(dSoundSinkID sink);
@@ -172,6 +174,11 @@ DSOUND_API unsigned long dSoundSinkGetSamples(dSoundSinkID sink, const float** f
  * faster than real time waits while this is longer than the delay it accepts; beyond 10 s samples
  * are lost. 0 for sinks other than OpenAL. */
 DSOUND_API unsigned long dSoundSinkGetBacklog(dSoundSinkID sink);
+/** Waits until no more than `delay` [s] of sound is ahead of the loudspeaker: for loops that run
+ * faster than real time, once a step. At once where the sink has no clock, or the simulation is
+ * slower than real time (its gaps are then faded; bodies in their modes are what makes it faster).
+ * @return seconds waited. */
+DSOUND_API dReal dSoundSinkPace(dSoundSinkID sink, dReal delay);
 /** First failure in words the user can act on; "" while healthy. */
 DSOUND_API const char* dSoundSinkGetError(dSoundSinkID sink);
 

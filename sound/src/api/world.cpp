@@ -165,7 +165,10 @@ int dSoundGetStats(dSoundWorldID world, dSoundStats* stats) {
         all.gathers = count.gathers;
         all.frames = count.frames;
         for (const auto& listener : scene.all())
-            listener->for_each_sink([&](const Sink& sink) { all.underruns += sink.underruns(); });
+            listener->for_each_sink([&](const Sink& sink) {
+                all.underruns += sink.underruns();
+                all.latency = std::max(all.latency, sink.latency());
+            });
         all.seconds = world->world.seconds();
         all.peak = count.peak;
         all.rms = count.rms;

@@ -64,6 +64,8 @@ int OpenAlContext::period_frames() const noexcept {
 }
 
 bool OpenAlContext::connected() const noexcept {
+    if (device_.connected)
+        return device_.connected();
     return !alcIsExtensionPresent(device_.handle.get(), "ALC_EXT_disconnect") ||
            get(device_.handle.get(), ALC_CONNECTED) != 0;
 }

@@ -2,6 +2,7 @@
 
 #include <AL/alc.h>
 
+#include <functional>
 #include <memory>
 
 namespace ode::sound {
@@ -14,6 +15,8 @@ struct OpenAlDevice {
     std::unique_ptr<ALCdevice, Closer> handle;
     /// Rendered by alcRenderSamplesSOFT (float stereo) instead of by a sound card.
     bool loopback = false;
+    /// Whether it is still there, where OpenAL can't tell; empty: ask OpenAL.
+    std::function<bool()> connected;
 
     /// The system's default output. @throws Refused when there is none
     static OpenAlDevice open_default();
