@@ -174,6 +174,9 @@ DSOUND_API unsigned long dSoundSinkGetSamples(dSoundSinkID sink, const float** f
  * faster than real time waits while this is longer than the delay it accepts; beyond 10 s samples
  * are lost. 0 for sinks other than OpenAL. */
 DSOUND_API unsigned long dSoundSinkGetBacklog(dSoundSinkID sink);
+/** Rate [Hz] that OpenAL's default device runs at, for dSoundSetRate(): sound of another rate is
+ * resampled by OpenAL, which is heard. @return 0 without a device, after a message. */
+DSOUND_API int dSoundGetDeviceRate(void);
 /** Waits until no more than `delay` [s] of sound is ahead of the loudspeaker: for loops that run
  * faster than real time, once a step. At once where the sink has no clock, or the simulation is
  * slower than real time (its gaps are then faded; bodies in their modes are what makes it faster).

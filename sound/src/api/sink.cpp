@@ -122,6 +122,18 @@ const char* dSoundSinkGetError(dSoundSinkID sink) {
     return sink->sink->error();
 }
 
+int dSoundGetDeviceRate(void) {
+    const char* const function = __func__;
+    return guarded(function, 0, [function] {
+        try {
+            return OpenAlContext(OpenAlDevice::open_default(), 0).rate();
+        } catch (const Refused& e) {
+            dMessage(0, "%s: %s", function, e.what());
+            return 0;
+        }
+    });
+}
+
 dReal dSoundSinkPace(dSoundSinkID sink, dReal delay) {
     require_id(sink, __func__);
     if (!std::isfinite(delay) || delay < 0.0) {

@@ -26,6 +26,7 @@ struct OpenAlDevice {
 /// for threads that ask for it (ALC_EXT_thread_local_context).
 class OpenAlContext {
 public:
+    /// @param rate  wished for [Hz]; 0: the device's own.
     /// @throws Refused
     OpenAlContext(OpenAlDevice device, int rate);
     OpenAlContext(const OpenAlContext&) = delete;
