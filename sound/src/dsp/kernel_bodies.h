@@ -255,11 +255,9 @@ inline void arrive(const SplatSurface& surface, const Aim& ear, int i, Lane& lat
         for (int k = 0; k < 4; ++k)
             lean[k] = offset[k] * load(surface.lean + 4 * (i + k));
         const Lane per_distance = fill(1.0) / distance;
-        const Lane flow = load(surface.flow + i);
-        const Lane far = load(surface.lean_flow + i);
-        const Lane near = fill(surface.lean_length) * per_distance * (flow - far);
         value = ear.gain * per_distance *
-                (flow + (far + near) * per_distance * sums(lean[0], lean[1], lean[2], lean[3]));
+                (load(surface.flow + i) + load(surface.lean_flow + i) * per_distance *
+                                              sums(lean[0], lean[1], lean[2], lean[3]));
     } else if constexpr (kFacing != Facing::kAll) {
         Lane area[4];
         for (int k = 0; k < 4; ++k)

@@ -14,8 +14,7 @@ enum class Facing {
     kAll,     ///< the same all round
     kVisible, ///< 1 where its normal looks at the ear, 0 where away, a ramp of cos = +-0.05 between
     kCosine,  ///< cosine of the angle between normal and ear where positive, else 0
-    kLeaning  ///< flow + (lean . way) / distance times lean_flow + (flow - lean_flow) length /
-              ///< distance
+    kLeaning  ///< flow + lean_flow (lean . way) / distance
 };
 
 /// One ear, as one sample of one surface is sent to it.
@@ -40,7 +39,6 @@ struct SplatSurface {
     const double* flow;       ///< volume per time of each node [m^3/s]
     const double* lean;       ///< points [-], for Facing::kLeaning
     const double* lean_flow;  ///< of each node [m^3/s], the same
-    double lean_length;       ///< within which the lean is louder, by lean_length / distance [m]
     double samples_per_metre; ///< ring rate / speed of sound
     const double* table;      ///< SplatTable::rows()
 };

@@ -79,11 +79,11 @@ void Listener::splat(const FlowBlock& block, bool ghost, int only) noexcept {
     }
     if (count == 0)
         return;
-    SplatSurface surface{
-        block.nodes,         block.position,    block.area,
-        block.softening,     block.flow,        block.lean,
-        block.lean_flow,     block.lean_length, settings_->send_rate() / settings_->air.speed,
-        splat_table().rows()};
+    SplatSurface surface{block.nodes,         block.position,
+                         block.area,          block.softening,
+                         block.flow,          block.lean,
+                         block.lean_flow,     settings_->send_rate() / settings_->air.speed,
+                         splat_table().rows()};
     const auto facing = static_cast<std::size_t>(
         block.lean ? Facing::kLeaning : radiation_facing(settings_->radiation));
     Shade* const shade = find_shade(block.source);
@@ -148,8 +148,8 @@ void Listener::send(const ModalBlock& block) {
         const EarPath::State& state = ear_[static_cast<std::size_t>(e)].path->at(block.sample);
         const Vec3 place = state.ghost_share > 0.5 ? state.ghost : state.position;
         flow[0] = per_gain * voice.gains[static_cast<std::size_t>(e)].flow(block, place);
-        const FlowBlock one{block.sample, kPoints, position, area,    softening,    flow,
-                            nullptr,      nullptr, 0.0,      nullptr, block.source, block.gain};
+        const FlowBlock one{block.sample, kPoints, position, area,         softening, flow,
+                            nullptr,      nullptr, nullptr,  block.source, block.gain};
         splat(one, false, e);
         if (state.ghost_share > 0.0)
             splat(one, true, e);

@@ -22,7 +22,6 @@ struct FlowBlock {
     const double* flow;      ///< low-passed area . velocity [m^3/s]
     const double* lean;      ///< points [-]; null: the same all round, see Lean
     const double* lean_flow; ///< [m^3/s]
-    double lean_length;      ///< see Lean::length() [m]
     const Patches* patches;  ///< of the nodes; null: nobody asked for them
     const void* source;      ///< whose it is: the BodySource
     double gain;             ///< 1, or a part while the source crosses over to another place

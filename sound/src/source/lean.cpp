@@ -15,7 +15,7 @@
 namespace ode::sound {
 namespace {
 
-double size_of(const double* v) { return Eigen::Map<const Vec3>(v).norm(); }
+double length(const double* v) { return Eigen::Map<const Vec3>(v).norm(); }
 
 Vec3 mean(const double* point, int nodes) noexcept {
     Vec3 sum = Vec3::Zero();
@@ -49,7 +49,7 @@ Lean::Lean(Leaning leaning, const Surface& surface, const double* point, const d
 
 void Lean::aim_normals(const double* area) {
     for (std::size_t i = 0; i < along_area_.size(); ++i)
-        if (const double a = size_of(area + 4 * i); a > 0.0)
+        if (const double a = length(area + 4 * i); a > 0.0)
             along_area_[i] = 1.0 / a;
     leans_ = true;
 }

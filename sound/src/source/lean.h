@@ -39,10 +39,6 @@ public:
 
     const double* direction() const noexcept { return direction_.data(); } ///< points [-]
     const double* flow() const noexcept { return heard_; }                 ///< [m^3/s]
-    /// A lean is a dipole: near it, where its wave has not formed, it is louder by the integral of
-    /// flow() times c/R. A high-pass' integral is its time times what it takes away, so that this
-    /// is length() / R times the flow less flow().
-    double length() const noexcept { return filters_ ? carried_->shake_length : 0.0; }
 
 private:
     struct HighPass {

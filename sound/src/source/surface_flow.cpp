@@ -266,7 +266,6 @@ void SurfaceFlow::give_off(BlockSink& out) {
                             flow[j],
                             leans ? lean_->direction() : nullptr,
                             leans ? lean_->flow() : nullptr,
-                            leans ? lean_->length() : 0.0,
                             patches_.count > 0 ? &patches_ : nullptr,
                             this,
                             1.0 - ghost};

@@ -46,7 +46,7 @@ public:
                 const double area[16] = {}, softening[4] = {1e-12, 1e-12, 1e-12, 1e-12};
                 const double position[16] = {x, 0, 0, 0, x, 0, 0, 0, x, 0, 0, 0, x, 0, 0, 0};
                 listener_.send(FlowBlock{o, 4, position, area, softening, flows, nullptr, nullptr,
-                                         0.0, nullptr, nullptr, 1.0});
+                                         nullptr, nullptr, 1.0});
             }
             listener_.render(settings_.first_open_frame(tau));
         }
