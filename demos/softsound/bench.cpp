@@ -54,6 +54,10 @@ constexpr Benchmark kBenchmarks[] = {
      "Response, aliases, distortion, Doppler shift, arrival and latency of the sound path; a "
      "minute. "
      "Ends with 1 when the default misses a mark"},
+    {"live", "live",
+     "Latency and gaps of live sound on OpenAL's null back end; ten seconds. Ends with 1 when a "
+     "mark "
+     "is missed"},
     {"stability", "stability",
      "The stress suite: what recovers, what is told, what is refused; two minutes. Ends with 1 "
      "when "

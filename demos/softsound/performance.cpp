@@ -91,6 +91,8 @@ Performance perform(scenes::World& world, const Stage& stage, bool quiet) {
         Progress progress(stage.name, static_cast<double>(steps), quiet);
         for (long i = 0; i < steps; ++i) {
             world.step(stage.step);
+            if (live) // 0.1 s suits OpenAL Soft's default period
+                dSoundSinkPace(live, 0.1);
             progress.at(static_cast<double>(i + 1));
         }
     }

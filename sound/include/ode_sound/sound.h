@@ -60,6 +60,17 @@ DSOUND_API int dSoundSetRadiation(dSoundWorldID world, const char* name);
  *          ceil(3/(fmax dt)), Gaussian splat two samples wide. */
 DSOUND_API int dSoundSetSampling(dSoundWorldID world, const char* name);
 
+/** What stands between hides: rays through a space of the application's, from groups of each
+ * surface's triangles to each ear, 4000 a second of simulated time at most, none where nothing is
+ * near the way. What hides or comes clear fades within 20 ms. "rayleigh" and "paper" lose just the
+ * hidden triangles; rules that count all faces get quieter by the part that is hidden, since front
+ * and back must go on to cancel. Soft bodies hide others, too, but no body itself; what goes round
+ * an edge is not heard.
+ * @param space          searched with those inside it; NULL: nothing hides (default). Must not end
+ *                       before the sound world's listeners unless NULL is set first.
+ * @param category_bits  a geom hides when it has one of these. */
+DSOUND_API int dSoundSetOcclusion(dSoundWorldID world, dSpaceID space, unsigned long category_bits);
+
 /** Air: density [kg/m^3] and speed of sound [m/s]; defaults 1.21 and 343 (20 C, 1 atm). */
 DSOUND_API int dSoundSetAir(dSoundWorldID world, dReal density, dReal speed);
 
@@ -78,6 +89,9 @@ typedef struct dSoundStats {
     dReal seconds;                   /**< CPU time spent on sound [s] */
     dReal peak;                      /**< largest |sample| at any ear [Pa] */
     dReal rms;                       /**< over all rendered frames and ears [Pa] */
+    unsigned long rays;              /**< cast to see what is hidden */
+    dReal latency; /**< longest mean time from the path's end to the driver of a live sink [s]; the
+                        path's own, 2.1 ms at 48 kHz, comes before */
 } dSoundStats;
 DSOUND_API int dSoundGetStats(dSoundWorldID world, dSoundStats* stats);
 
@@ -145,8 +159,8 @@ DSOUND_API dSoundSinkID dSoundSinkCreateFileAs(const char* path, const dSoundFil
  * @return 0 for sinks without a note, after a message. */
 DSOUND_API int dSoundSinkMark(dSoundSinkID sink, const char* text);
 /** Plays live on OpenAL's default device, in a context of its own, from a thread of its own. A
- * simulation slower than real time is heard with faded gaps (dSoundStats.underruns). No device: a
- * message, and a null sink instead. */
+ * simulation slower than real time is heard with faded gaps (dSoundStats.underruns). A device that
+ * is lost is waited for. No device at first: a message, and a null sink instead. */
 DSOUND_API dSoundSinkID dSoundSinkCreateOpenAL(void);
 /** Plays out and closes. A listener that still has it lets it go. */
 DSOUND_API void dSoundSinkDestroy(dSoundSinkID sink);
@@ -160,6 +174,14 @@ DSOUND_API unsigned long dSoundSinkGetSamples(dSoundSinkID sink, const float** f
  * faster than real time waits while this is longer than the delay it accepts; beyond 10 s samples
  * are lost. 0 for sinks other than OpenAL. */
 DSOUND_API unsigned long dSoundSinkGetBacklog(dSoundSinkID sink);
+/** Rate [Hz] that OpenAL's default device runs at, for dSoundSetRate(): sound of another rate is
+ * resampled by OpenAL, which is heard. @return 0 without a device, after a message. */
+DSOUND_API int dSoundGetDeviceRate(void);
+/** Waits until no more than `delay` [s] of sound is ahead of the loudspeaker: for loops that run
+ * faster than real time, once a step. At once where the sink has no clock, or the simulation is
+ * slower than real time (its gaps are then faded; bodies in their modes are what makes it faster).
+ * @return seconds waited. */
+DSOUND_API dReal dSoundSinkPace(dSoundSinkID sink, dReal delay);
 /** First failure in words the user can act on; "" while healthy. */
 DSOUND_API const char* dSoundSinkGetError(dSoundSinkID sink);
 

@@ -7,8 +7,11 @@
 #include "sink/openal_sink.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstring>
 #include <memory>
+#include <thread>
 
 using namespace ode::sound;
 
@@ -117,6 +120,35 @@ unsigned long dSoundSinkGetSamples(dSoundSinkID sink, const float** first, int* 
 const char* dSoundSinkGetError(dSoundSinkID sink) {
     require_id(sink, __func__);
     return sink->sink->error();
+}
+
+int dSoundGetDeviceRate(void) {
+    const char* const function = __func__;
+    return guarded(function, 0, [function] {
+        try {
+            return OpenAlContext(OpenAlDevice::open_default(), 0).rate();
+        } catch (const Refused& e) {
+            dMessage(0, "%s: %s", function, e.what());
+            return 0;
+        }
+    });
+}
+
+dReal dSoundSinkPace(dSoundSinkID sink, dReal delay) {
+    require_id(sink, __func__);
+    if (!std::isfinite(delay) || delay < 0.0) {
+        dMessage(0, "%s: delay is %g s; it must be 0 or more", __func__, delay);
+        return 0;
+    }
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    const auto allowed = static_cast<std::size_t>(delay * sink->sink->rate());
+    while (sink->sink->rate() > 0 && sink->sink->backlog() > allowed) {
+        if (Clock::now() - begin > std::chrono::seconds(1)) // a device that takes nothing
+            break;
+        std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+    return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 unsigned long dSoundSinkGetBacklog(dSoundSinkID sink) {

@@ -74,6 +74,14 @@ int dSoundSetSampling(dSoundWorldID world, const char* name) {
     });
 }
 
+int dSoundSetOcclusion(dSoundWorldID world, dSpaceID space, unsigned long category_bits) {
+    require_id(world, "dSoundSetOcclusion");
+    return guarded("dSoundSetOcclusion", 0, [&] {
+        world->world.occlusion().set(space, category_bits);
+        return 1;
+    });
+}
+
 int dSoundSetAir(dSoundWorldID world, dReal density, dReal speed) {
     require_id(world, "dSoundSetAir");
     return guarded("dSoundSetAir", 0, [&] {
@@ -157,10 +165,14 @@ int dSoundGetStats(dSoundWorldID world, dSoundStats* stats) {
         all.gathers = count.gathers;
         all.frames = count.frames;
         for (const auto& listener : scene.all())
-            listener->for_each_sink([&](const Sink& sink) { all.underruns += sink.underruns(); });
+            listener->for_each_sink([&](const Sink& sink) {
+                all.underruns += sink.underruns();
+                all.latency = std::max(all.latency, sink.latency());
+            });
         all.seconds = world->world.seconds();
         all.peak = count.peak;
         all.rms = count.rms;
+        all.rays = world->world.occlusion().rays();
         // An app built against an older header gets the fields that it knows.
         std::memcpy(stats, &all, std::min<std::size_t>(stats->struct_size, sizeof all));
         return 1;

@@ -182,7 +182,11 @@ void SoundWorld::on_step(double time) noexcept {
     if (failed_)
         return;
     try {
-        cost_.run_whole([&] { scene_.end_step(time); });
+        cost_.run_whole([&] {
+            scene_.end_step(time);
+            occlusion_.update(scene_, time - stepped_);
+        });
+        stepped_ = time;
     } catch (const std::exception& e) {
         failed_ = true;
         dMessage(0, "sound stops here: %s", e.what());
@@ -192,6 +196,7 @@ void SoundWorld::on_step(double time) noexcept {
 void SoundWorld::on_body_end(dSoftBodyID body) noexcept { scene_.end_body(body); }
 
 void SoundWorld::on_world_end() noexcept {
+    occlusion_.set(nullptr, 0); // the space may end with the world
     world_ = nullptr;
     observing_ = false;
     if (ended_)

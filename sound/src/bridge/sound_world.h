@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bridge/occlusion.h"
 #include "mix/cpu_clock.h"
 #include "mix/scene.h"
 
@@ -25,6 +26,7 @@ public:
 
     /// As Scene::set().
     void set(const Settings& settings);
+    Occlusion& occlusion() noexcept { return occlusion_; }
 
     Listener& add_listener();
     void remove_listener(Listener& listener) noexcept;
@@ -56,6 +58,8 @@ private:
     Scene scene_;
     /// By the identity of their modes, while some voice has them.
     std::map<const void*, std::weak_ptr<const ModalVoiceModel>> voice_model_;
+    Occlusion occlusion_;
+    double stepped_ = 0.0; ///< end of the last step [s]
     SampledCost cost_;
     std::vector<double> padded_; ///< positions, then velocities, where the stride is three
 };

@@ -16,6 +16,7 @@ void Listener::restart() {
     const Settings& s = *settings_;
     const double gain = radiation_gain(s.radiation, s.air);
     const bool differentiate = radiation_differentiates(s.radiation);
+    shade_.clear(); // sources are made anew, too
     for (Ear& ear : ear_) {
         ear.path.reset(); // its grid may be another
         ear.wave.reset();
@@ -51,6 +52,7 @@ void Listener::splat(const FlowBlock& block, bool ghost, int only) noexcept {
     SplatEar target[kEars];
     int count = 0;
     EarLine* line[kEars];
+    int which[kEars];
     for (int e = only < 0 ? 0 : only; e < (only < 0 ? kEars : only + 1); ++e) {
         Ear& ear = ear_[static_cast<std::size_t>(e)];
         const EarPath::State& state = ear.path->at(block.sample);
@@ -59,6 +61,7 @@ void Listener::splat(const FlowBlock& block, bool ghost, int only) noexcept {
             continue;
         SplatEar& to = target[count];
         to = ear.wave->target(block.sample);
+        which[count] = e;
         line[count++] = ear.wave.get();
         to.gain = block.gain * share;
         const Vec3& place = ghost ? state.ghost : state.position;
@@ -76,13 +79,27 @@ void Listener::splat(const FlowBlock& block, bool ghost, int only) noexcept {
     }
     if (count == 0)
         return;
-    const SplatSurface surface{block.nodes,         block.position,
-                               block.area,          block.softening,
-                               block.flow,          block.lean,
-                               block.lean_flow,     settings_->send_rate() / settings_->air.speed,
-                               splat_table().rows()};
+    SplatSurface surface{block.nodes,         block.position,
+                         block.area,          block.softening,
+                         block.flow,          block.lean,
+                         block.lean_flow,     settings_->send_rate() / settings_->air.speed,
+                         splat_table().rows()};
     const auto facing = static_cast<std::size_t>(
         block.lean ? Facing::kLeaning : radiation_facing(settings_->radiation));
+    Shade* const shade = find_shade(block.source);
+    if (shade)
+        shade->advance(block.sample, settings_->send_rate());
+    const bool hides = shade && !shade->is_clear();
+    if (hides && block.patches && radiation_facing(settings_->radiation) != Facing::kAll) {
+        for (int e = 0; e < count; ++e) {
+            surface.flow = shade->scaled(which[e], *block.patches, block.flow);
+            line[e]->note_arrival(static_cast<double>(block.sample) +
+                                  kernels().splat[facing](surface, target + e, 1));
+        }
+        return;
+    }
+    for (int e = 0; hides && e < count; ++e)
+        target[e].gain *= shade->share(which[e]);
     const double delay = kernels().splat[facing](surface, target, count);
     for (int e = 0; e < count; ++e)
         line[e]->note_arrival(static_cast<double>(block.sample) + delay);
@@ -131,8 +148,8 @@ void Listener::send(const ModalBlock& block) {
         const EarPath::State& state = ear_[static_cast<std::size_t>(e)].path->at(block.sample);
         const Vec3 place = state.ghost_share > 0.5 ? state.ghost : state.position;
         flow[0] = per_gain * voice.gains[static_cast<std::size_t>(e)].flow(block, place);
-        const FlowBlock one{block.sample, kPoints, position, area,      softening,
-                            flow,         nullptr, nullptr,  block.gain};
+        const FlowBlock one{block.sample, kPoints, position, area,         softening, flow,
+                            nullptr,      nullptr, nullptr,  block.source, block.gain};
         splat(one, false, e);
         if (state.ghost_share > 0.0)
             splat(one, true, e);
@@ -144,7 +161,12 @@ void Listener::send(const FacetBlock& block) noexcept {
         return;
     const Facing facing = radiation_facing(settings_->radiation);
     const double per_metre = settings_->rate / settings_->air.speed;
-    for (Ear& ear : ear_) {
+    Shade* const shade = block.patches ? find_shade(block.source) : nullptr;
+    if (shade)
+        shade->advance(block.sample, settings_->send_rate());
+    const bool hides = shade && !shade->is_clear();
+    for (int e = 0; e < kEars; ++e) {
+        Ear& ear = ear_[static_cast<std::size_t>(e)];
         const Vec3 r = ear.path->at(block.sample).position;
         for (int t = 0; t < block.facets; ++t) {
             const double* f = block.facet + static_cast<std::ptrdiff_t>(t) * FacetBlock::kFields;
@@ -158,9 +180,30 @@ void Listener::send(const FacetBlock& block) noexcept {
                 s *= cosine;
             else if (settings_->radiation == Radiation::kKirchhoff)
                 s *= 1.0 + cosine;
+            if (hides && facing == Facing::kAll)
+                s *= shade->share(e);
+            else if (hides)
+                s *= shade->gain(e, block.patches->of[static_cast<std::size_t>(t)]);
             ear.paper->add(block.sample, distance * per_metre, s); // P01 eq. 11
         }
     }
+}
+
+Shade* Listener::find_shade(const void* source) const noexcept {
+    const auto found = std::find_if(shade_.begin(), shade_.end(),
+                                    [&](const Shaded& own) { return own.source == source; });
+    return found != shade_.end() ? found->shade.get() : nullptr;
+}
+
+Shade& Listener::shade(const BodySource& source) {
+    if (Shade* found = find_shade(&source))
+        return *found;
+    shade_.push_back({&source, std::make_unique<Shade>()});
+    return *shade_.back().shade;
+}
+
+void Listener::forget(const BodySource& source) noexcept {
+    std::erase_if(shade_, [&](const Shaded& own) { return own.source == &source; });
 }
 
 void Listener::render(std::int64_t frame) noexcept {

@@ -7,6 +7,7 @@
 #include "mix/voice_gains.h"
 #include "path/ear_line.h"
 #include "path/paper_line.h"
+#include "path/shade.h"
 #include "sink/sink.h"
 #include "source/body_source.h"
 
@@ -38,6 +39,14 @@ public:
     void send(const FacetBlock& block) noexcept;
     void send(const ModalBlock& block); ///< allocates when a voice is first heard
     void forget_voice(const void* voice) noexcept;
+
+    /// What this listener sees of a source; made at the first call.
+    Shade& shade(const BodySource& source);
+    bool has_shade(const BodySource& source) const noexcept {
+        return find_shade(&source) != nullptr;
+    }
+    /// The source ends.
+    void forget(const BodySource& source) noexcept;
 
     /// Hands all frames before `frame` to the sinks.
     void render(std::int64_t frame) noexcept;
@@ -88,6 +97,11 @@ private:
         std::array<VoiceGains, kEars> gains;
     };
     Voice& find_voice(const ModalBlock& block);
+    struct Shaded {
+        const void* source;
+        std::unique_ptr<Shade> shade;
+    };
+    Shade* find_shade(const void* source) const noexcept;
 
     const Settings* settings_;
     std::int64_t next_;
@@ -97,6 +111,7 @@ private:
     std::vector<Voice> voice_;
     std::vector<std::weak_ptr<Sink>> sinks_;
     Meter meter_;
+    std::vector<Shaded> shade_;
     std::array<Meter, kEars> ear_meter_;
     std::optional<Limiter> limiter_;
 };

@@ -136,6 +136,8 @@ void Scene::end_step(double time) {
         if (body.key || !body.is_silent())
             return false;
         end_voice(body);
+        for (const auto& listener : listeners_)
+            listener->forget(*body.source);
         return true;
     });
     const std::int64_t open = settings_.first_open_frame(time);
@@ -175,6 +177,7 @@ void Scene::on_facets(const FacetBlock& block) noexcept {
 
 void Scene::on_modes(const ModalBlock& block) noexcept {
     ModalBlock own = block;
+    own.source = sounding_->source.get();
     own.gain *= next_gain(settings_.send_rate());
     for (const auto& listener : listeners_)
         listener->send(own);

@@ -63,6 +63,14 @@ public:
     double gain(const void* body) const noexcept;
     static constexpr double kGainTime = 5e-3; ///< [s], from 0 to 1
 
+    /// Bodies that have not ended: use(key, source).
+    template <class Use>
+    void for_each_body(Use&& use) {
+        for (Body& body : bodies_)
+            if (body.key)
+                use(body.key, *body.source);
+    }
+
     /// The body will come no more; its address may be used anew.
     void end_body(const void* body) noexcept;
     /// All substeps up to `time` [s] have come.

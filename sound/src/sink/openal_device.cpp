@@ -48,6 +48,8 @@ OpenAlContext::OpenAlContext(OpenAlDevice device, int rate) : device_(std::move(
         attributes[8] = ALC_FORMAT_TYPE_SOFT;
         attributes[9] = ALC_FLOAT_SOFT;
     }
+    if (rate == 0) // as the device likes it
+        attributes[0] = 0;
     context_ = alcCreateContext(handle, attributes.data());
     if (!context_)
         throw Refused("OpenAL refuses a context (error " + std::to_string(alcGetError(handle)) +
@@ -64,6 +66,8 @@ int OpenAlContext::period_frames() const noexcept {
 }
 
 bool OpenAlContext::connected() const noexcept {
+    if (device_.connected)
+        return device_.connected();
     return !alcIsExtensionPresent(device_.handle.get(), "ALC_EXT_disconnect") ||
            get(device_.handle.get(), ALC_CONNECTED) != 0;
 }

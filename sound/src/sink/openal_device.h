@@ -2,6 +2,7 @@
 
 #include <AL/alc.h>
 
+#include <functional>
 #include <memory>
 
 namespace ode::sound {
@@ -14,6 +15,8 @@ struct OpenAlDevice {
     std::unique_ptr<ALCdevice, Closer> handle;
     /// Rendered by alcRenderSamplesSOFT (float stereo) instead of by a sound card.
     bool loopback = false;
+    /// Whether it is still there, where OpenAL can't tell; empty: ask OpenAL.
+    std::function<bool()> connected;
 
     /// The system's default output. @throws Refused when there is none
     static OpenAlDevice open_default();
@@ -23,6 +26,7 @@ struct OpenAlDevice {
 /// for threads that ask for it (ALC_EXT_thread_local_context).
 class OpenAlContext {
 public:
+    /// @param rate  wished for [Hz]; 0: the device's own.
     /// @throws Refused
     OpenAlContext(OpenAlDevice device, int rate);
     OpenAlContext(const OpenAlContext&) = delete;

@@ -15,8 +15,8 @@ constexpr milliseconds kConnectionCheck{500};
 
 } // namespace
 
-OpenAlSink::OpenAlSink(OpenAlDevice device, Tell tell)
-    : device_(std::move(device)), tell_(std::move(tell)) {}
+OpenAlSink::OpenAlSink(OpenAlDevice device, Tell tell, OpenDevice again)
+    : device_(std::move(device)), tell_(std::move(tell)), again_(std::move(again)) {}
 
 bool OpenAlSink::open(const Format& format) {
     if (dead_) {
@@ -74,36 +74,91 @@ std::size_t OpenAlSink::backlog() const noexcept {
     return ring_->written() - played;
 }
 
+double OpenAlSink::latency() const noexcept {
+    const std::size_t looks = looks_.load();
+    return looks > 0
+               ? static_cast<double>(waited_.load()) / static_cast<double>(looks) / format_.rate
+               : 0.0;
+}
+
 void OpenAlSink::feed() noexcept {
+    while (!play())
+        if (!await_device())
+            return;
+}
+
+/// @return whether all is played; else the device is gone.
+bool OpenAlSink::play() noexcept {
     using Clock = std::chrono::steady_clock;
     const OpenAlContext::Scope scope(stream_->context());
     const milliseconds nap(std::clamp(250 * stream_->buffer_frames() / format_.rate, 1, 5));
+    const unsigned long underruns = underruns_;
     auto last_check = Clock::now();
     auto last_progress = last_check;
     std::size_t last_buffers = 0;
     for (;;) {
         const bool ending = ending_.load(std::memory_order_acquire);
         stream_->pump(*ring_, ending);
-        underruns_.store(stream_->underruns());
+        underruns_.store(underruns + stream_->underruns());
         // After the refill, so that whoever sees the count sees a full queue behind it.
-        played_.store(stream_->played_frames(), std::memory_order_release);
+        played_.store(before_ + stream_->played_frames(), std::memory_order_release);
+        if (stream_->played_frames() > 0) {
+            waited_ += backlog();
+            ++looks_;
+        }
         const auto now = Clock::now();
         if (!ending || stream_->played_buffers() != last_buffers) {
             last_buffers = stream_->played_buffers();
             last_progress = now;
         }
         if (stream_->finished() || (ending && now - last_progress > kStuck))
-            return;
+            return true;
         if (now - last_check > kConnectionCheck) {
             last_check = now;
-            if (!stream_->context().connected()) {
-                error_.set("OpenAL sink: the sound device was disconnected; connect it and make "
-                           "another sink");
-                dead_ = true;
-                return;
-            }
+            if (!stream_->context().connected())
+                return false;
         }
         std::this_thread::sleep_for(nap);
+    }
+}
+
+/// @return false when nothing more will come.
+bool OpenAlSink::await_device() noexcept {
+    using Clock = std::chrono::steady_clock;
+    error_.set(
+        "OpenAL sink: the sound device was disconnected; sound goes on when one is connected");
+    ++lost_devices_;
+    stream_.reset();
+    const std::size_t gone = ring_->written() - ring_->size(); // what was queued is lost with it
+    std::vector<float> unheard;
+    try {
+        unheard.resize(ring_->capacity() * static_cast<std::size_t>(format_.channels));
+    } catch (const std::exception&) {
+        dead_ = true;
+        return false;
+    }
+    before_ = gone;
+    const auto begin = Clock::now();
+    auto next_try = begin + kConnectionCheck;
+    for (;;) {
+        if (ending_.load(std::memory_order_acquire))
+            return false;
+        const double passed = std::chrono::duration<double>(Clock::now() - begin).count();
+        const auto due = gone + static_cast<std::size_t>(passed * format_.rate);
+        if (due > before_)
+            before_ +=
+                ring_->read(std::span(unheard).first(std::min(due - before_, ring_->capacity()) *
+                                                     static_cast<std::size_t>(format_.channels)));
+        played_.store(before_, std::memory_order_release);
+        if (Clock::now() >= next_try) {
+            next_try += kConnectionCheck;
+            try {
+                stream_ = std::make_unique<OpenAlStream>(again_(), format_, [](const char*) {});
+                return true;
+            } catch (const std::exception&) { // not yet
+            }
+        }
+        std::this_thread::sleep_for(milliseconds(5));
     }
 }
 

@@ -63,6 +63,12 @@ public:
     /// loop that steps faster than real time waits while this is large. 0 for sinks without a
     /// clock.
     virtual std::size_t backlog() const noexcept { return 0; }
+
+    /// Of the clock that backlog() is counted by [Hz]; 0 for sinks without one.
+    virtual int rate() const noexcept { return 0; }
+
+    /// Mean time from write() to the loudspeaker's driver so far [s]; 0 for sinks without a clock.
+    virtual double latency() const noexcept { return 0.0; }
 };
 
 } // namespace ode::sound

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "source/patches.h"
 #include "source/surface.h"
 
 #include <Eigen/Core>
@@ -21,6 +22,8 @@ struct FlowBlock {
     const double* flow;      ///< low-passed area . velocity [m^3/s]
     const double* lean;      ///< points [-]; null: the same all round, see Lean
     const double* lean_flow; ///< [m^3/s]
+    const Patches* patches;  ///< of the nodes; null: nobody asked for them
+    const void* source;      ///< whose it is: the BodySource
     double gain;             ///< 1, or a part while the source crosses over to another place
 };
 
@@ -28,8 +31,10 @@ struct FlowBlock {
 struct FacetBlock {
     std::int64_t sample; ///< time * audio rate
     int facets;
-    const double* facet; ///< kFields doubles each
-    double gain = 1.0;   ///< of the body
+    const double* facet;              ///< kFields doubles each
+    const Patches* patches = nullptr; ///< of the facets
+    const void* source = nullptr;     ///< whose it is: the BodySource
+    double gain = 1.0;                ///< of the body
     /// pressure [Pa], area [m^2], centre x y z [m], unit normal x y z
     static constexpr int kFields = 8;
 };
@@ -43,6 +48,7 @@ struct ModalBlock {
     const TransferTable* table; ///< how they sound, in the frame
     const void* voice;          ///< tells voices apart
     double gain;
+    const void* source = nullptr; ///< of the body's surface, by which it is known to be hidden
 };
 
 /// Takes what sources give off, in order of time for each source.
@@ -66,6 +72,10 @@ public:
     /// No substep of this body will come before `time` [s]. A body that has delivered less falls
     /// silent without a click.
     virtual void advance_to(double time, BlockSink& out) = 0;
+
+    /// Groups of what the blocks carry, made at the first call, and their middles as last seen [m].
+    /// After the first push().
+    virtual const Patches& patches(std::span<std::array<double, 3>> centre) = 0;
 
     /// Nothing more will come of it until the next push().
     virtual bool is_silent() const noexcept = 0;

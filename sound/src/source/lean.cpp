@@ -6,7 +6,11 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
 #include <numeric>
+#include <vector>
 
 namespace ode::sound {
 namespace {
@@ -59,12 +63,56 @@ void Lean::aim_at_air(const Surface& surface, const double* point, const double*
         const int* node = surface.triangle() + 3 * t;
         mesh.triangle.push_back({node[0], node[1], node[2]});
     }
+    if (!std::all_of(mesh.node.begin(), mesh.node.end(),
+                     [](const Vec3& x) { return x.allFinite(); }))
+        return;
+    carried_ = shared(mesh, surface.nodes(), point, area);
+    if (!(carried_->shake_length > 0.0))
+        return;
+    along_area_ = carried_->along_area;
+    along_way_ = carried_->along_way;
+    share_ = carried_->share;
+    shake_ = HighPass(carried_->shake_length / speed, rate);
+    pulse_ = HighPass(carried_->pulse_length / speed, rate);
+    leans_ = filters_ = true;
+}
+
+/// A pile of like bodies is solved for once: they are known by their edges, to 1e-4 of their size.
+std::shared_ptr<const Lean::Carried> Lean::shared(const BoundaryMesh& mesh, int nodes,
+                                                  const double* point, const double* area) {
+    const double size = mesh.radius(mesh.centre());
+    std::vector<int> name;
+    for (const auto& t : mesh.triangle)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 edge = mesh.node[static_cast<std::size_t>(t[(k + 1) % 3])] -
+                              mesh.node[static_cast<std::size_t>(t[k])];
+            name.push_back(t[k]);
+            name.push_back(static_cast<int>(std::lround(1e4 * edge.norm() / size)));
+        }
+    name.push_back(static_cast<int>(std::lround(1e4 * std::log2(size))));
+    static std::mutex lock;
+    static std::map<std::vector<int>, std::weak_ptr<const Carried>> known;
+    const std::lock_guard guard(lock);
+    std::erase_if(known, [](const auto& entry) { return entry.second.expired(); });
+    std::weak_ptr<const Carried>& place = known[name];
+    if (auto found = place.lock())
+        return found;
+    auto made = std::make_shared<const Carried>(carry(mesh, nodes, point, area));
+    place = made;
+    return made;
+}
+
+Lean::Carried Lean::carry(const BoundaryMesh& mesh, int nodes, const double* point,
+                          const double* area) {
     const CarriedAir air = carried_air(mesh);
     if (air.shift.empty())
-        return;
+        return {};
+    const auto n = static_cast<std::size_t>(nodes);
+    Carried out{AlignedVector(n, 0.0), AlignedVector(n, 0.0), AlignedVector(n, 0.0),
+                air.pulse_length, air.shake_length};
     // The shift is kept by what turns with the body at no cost: area vector and way from the
     // middle. What stands on both is lost; on bodies of revolution there is nothing.
-    const Vec3 middle = mean(point, surface.nodes());
+    const Vec3 middle = mean(point, nodes);
     double total = 0.0;
     for (std::size_t i = 0; i < air.shift.size(); ++i) {
         Eigen::Matrix<double, 3, 2> basis;
@@ -80,16 +128,14 @@ void Lean::aim_at_air(const Surface& surface, const double* point, const double*
         normal.diagonal().array() += 1e-3;
         const Eigen::Vector2d part =
             normal.ldlt().solve(basis.transpose() * air.shift[i]) / air.shake_length;
-        along_area_[i] = part[0] / scale[0];
-        along_way_[i] = part[1] / scale[1];
-        share_[i] = scale[0];
+        out.along_area[i] = part[0] / scale[0];
+        out.along_way[i] = part[1] / scale[1];
+        out.share[i] = scale[0];
         total += scale[0];
     }
-    for (double& share : share_)
+    for (double& share : out.share)
         share /= total;
-    shake_ = HighPass(air.shake_length / speed, rate);
-    pulse_ = HighPass(air.pulse_length / speed, rate);
-    leans_ = filters_ = true;
+    return out;
 }
 
 void Lean::reset() noexcept {

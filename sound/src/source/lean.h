@@ -2,6 +2,9 @@
 
 #include "dsp/storage.h"
 #include "source/surface.h"
+#include "transfer/boundary.h"
+
+#include <memory>
 
 namespace ode::sound {
 
@@ -48,6 +51,16 @@ private:
     void aim_at_air(const Surface& surface, const double* point, const double* area, double rate,
                     double speed);
 
+    /// What a shape has in common with all like it, however they are turned.
+    struct Carried {
+        AlignedVector along_area, along_way, share;
+        double pulse_length = 0.0, shake_length = 0.0; ///< [m]; 0: there is none
+    };
+    static Carried carry(const BoundaryMesh& mesh, int nodes, const double* point,
+                         const double* area);
+    static std::shared_ptr<const Carried> shared(const BoundaryMesh& mesh, int nodes,
+                                                 const double* point, const double* area);
+
     bool leans_ = false;
     bool filters_ = false;
     AlignedVector along_area_; ///< direction = along_area A + along_way (x - mean of x)
@@ -55,6 +68,7 @@ private:
     AlignedVector share_; ///< of each node in the surface's area
     AlignedVector direction_;
     AlignedVector before_, after_, sum_;
+    std::shared_ptr<const Carried> carried_; ///< keeps it for the next body of this shape
     HighPass shake_, pulse_;
     double pulse_before_ = 0.0, pulse_after_ = 0.0, pulse_shaken_ = 0.0;
     const double* heard_ = nullptr;

@@ -113,7 +113,16 @@ void PaperSurface::give_off(std::int64_t sample, BlockSink& out) {
     std::fill_n(sum, now_.size(), 0.0);
     weight = 0.0;
     if (scale != 0.0)
-        out.on_facets({sample, surface_.triangles(), facet_.data()});
+        out.on_facets({sample, surface_.triangles(), facet_.data(),
+                       patches_.count > 0 ? &patches_ : nullptr, this});
+}
+
+const Patches& PaperSurface::patches(std::span<std::array<double, 3>> centre) {
+    const double* first = facet_.data() + 2; // centres
+    if (patches_.count == 0)
+        patches_ = Patches(first, surface_.triangles(), FacetBlock::kFields);
+    patches_.centres(first, FacetBlock::kFields, centre);
+    return patches_;
 }
 
 void PaperSurface::advance_to(double time, BlockSink& out) {

@@ -24,6 +24,7 @@ public:
 
     bool push(const SurfaceView& view, BlockSink& out) override;
     void advance_to(double time, BlockSink& out) override;
+    const Patches& patches(std::span<std::array<double, 3>> centre) override;
     bool is_silent() const noexcept override { return silent_; }
 
 private:
@@ -51,6 +52,7 @@ private:
     std::vector<double> weight_; ///< of each open sample
     std::vector<DcBlock> dc_;
     std::vector<double> facet_;
+    Patches patches_;
 };
 
 } // namespace ode::sound

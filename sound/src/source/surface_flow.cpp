@@ -182,6 +182,13 @@ void SurfaceFlow::refresh_areas(double time) {
     refreshed_ = time;
 }
 
+const Patches& SurfaceFlow::patches(std::span<std::array<double, 3>> centre) {
+    if (patches_.count == 0)
+        patches_ = Patches(last_.data(), surface_.nodes(), 4);
+    patches_.centres(last_.data(), 4, centre);
+    return patches_;
+}
+
 void SurfaceFlow::stop() {
     const int nodes = surface_.nodes();
     std::fill_n(fade_.value(), nodes, 0.0);
@@ -259,6 +266,8 @@ void SurfaceFlow::give_off(BlockSink& out) {
                             flow[j],
                             leans ? lean_->direction() : nullptr,
                             leans ? lean_->flow() : nullptr,
+                            patches_.count > 0 ? &patches_ : nullptr,
+                            this,
                             1.0 - ghost};
             out.on_flow(block);
             if (ghost > 0.0) {

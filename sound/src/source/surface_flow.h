@@ -29,6 +29,7 @@ public:
 
     bool push(const SurfaceView& view, BlockSink& out) override;
     void advance_to(double time, BlockSink& out) override;
+    const Patches& patches(std::span<std::array<double, 3>> centre) override;
     bool is_silent() const noexcept override { return state_ == State::kSilent; }
 
 private:
@@ -69,6 +70,7 @@ private:
     Leaning leaning_;
     double speed_;
     std::optional<Lean> lean_; ///< from the first view on
+    Patches patches_;
     FlowHistory history_;
     FlowFade fade_;
     PlaceHistory places_;

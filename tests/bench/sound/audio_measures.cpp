@@ -45,8 +45,8 @@ public:
                 const double flows[4] = {now, 0.0, 0.0, 0.0};
                 const double area[16] = {}, softening[4] = {1e-12, 1e-12, 1e-12, 1e-12};
                 const double position[16] = {x, 0, 0, 0, x, 0, 0, 0, x, 0, 0, 0, x, 0, 0, 0};
-                listener_.send(
-                    FlowBlock{o, 4, position, area, softening, flows, nullptr, nullptr, 1.0});
+                listener_.send(FlowBlock{o, 4, position, area, softening, flows, nullptr, nullptr,
+                                         nullptr, nullptr, 1.0});
             }
             listener_.render(settings_.first_open_frame(tau));
         }

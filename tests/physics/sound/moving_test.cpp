@@ -70,7 +70,8 @@ std::vector<double> send_point(const Approach& model, double seconds) {
         double position[16] = {};
         for (int i = 0; i < 4; ++i)
             position[4 * i] = model.v * tau - model.start;
-        listener.send(FlowBlock{o, 4, position, area, softening, flow, nullptr, nullptr, 1.0});
+        listener.send(FlowBlock{o, 4, position, area, softening, flow, nullptr, nullptr, nullptr,
+                                nullptr, 1.0});
         listener.render(settings.first_open_frame(tau));
     }
     return recorder->ear[0];

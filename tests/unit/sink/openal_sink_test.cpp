@@ -3,6 +3,7 @@
 #include "sink/openal_sink.h"
 
 #include <AL/al.h>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <gmock/gmock.h>
@@ -66,6 +67,54 @@ TEST(OpenAlSink, LeavesTheApplicationsContextAlone) {
     alcDestroyContext(of_thread);
     alcDestroyContext(context);
     alcCloseDevice(device);
+}
+
+// The cable is pulled: frames pass by unheard, and when a device is there again sound goes on.
+TEST(OpenAlSink, LostDeviceIsWaitedFor) {
+    test::Loopback first, second;
+    std::atomic<bool> there{true}, second_there{false};
+    OpenAlDevice device = first.device();
+    device.connected = [&] { return there.load(); };
+    OpenAlSink sink(
+        std::move(device), [](const char*) {},
+        [&] {
+            if (!second_there)
+                throw Refused("no device");
+            OpenAlDevice other = second.device();
+            other.connected = [] { return true; };
+            return other;
+        });
+    ASSERT_TRUE(sink.open({48000, 2}));
+    std::vector<float> heard;
+    const auto live = [&](test::Loopback* device_now, double seconds) { // at real time's pace
+        const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+        while (Clock::now() < end) {
+            EXPECT_EQ(sink.write(std::vector<float>(2 * 480, 0.25F)), 480u);
+            if (device_now)
+                device_now->render(480, heard);
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    };
+    live(&first, 0.3);
+    EXPECT_FLOAT_EQ(heard.back(), 0.25F);
+    there = false;
+    live(nullptr, 1.2);
+    EXPECT_EQ(sink.lost_devices(), 1u);
+    EXPECT_LT(sink.backlog(), 48000u / 2) << "what nobody hears does not pile up";
+    EXPECT_THAT(sink.error(), testing::HasSubstr("disconnected"));
+    second_there = true;
+    live(nullptr, 0.7);
+    heard.clear();
+    live(&second, 0.5);
+    EXPECT_FLOAT_EQ(heard.back(), 0.25F);
+    std::thread drain([&] { // close() plays out what is queued
+        for (int i = 0; i < 400; ++i) {
+            second.render(480, heard);
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    });
+    drain.join();
+    sink.close();
 }
 
 // Nobody renders, so that nothing drains: the simulation is ahead without bound.

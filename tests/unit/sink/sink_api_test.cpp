@@ -92,4 +92,26 @@ TEST_F(SinkApi, WithoutDeviceANullSinkTakesOverWithAMessage) {
                 "dSoundSinkCreateOpenAL: OpenAL finds no sound device.*null sink");
 }
 
+[[noreturn]] void ask_rate(const char* drivers, bool expected) {
+    setenv("ALSOFT_DRIVERS", drivers, 1);
+    told.clear();
+    dSetMessageHandler(listen);
+    const int rate = dSoundGetDeviceRate();
+    std::fprintf(stderr, "%s", told.c_str());
+    std::exit(expected == (rate >= 8000) ? 0 : 1);
+}
+
+TEST_F(SinkApi, DeviceTellsItsRate) {
+    testing::GTEST_FLAG(death_test_style) = "threadsafe";
+    EXPECT_EXIT(ask_rate("null", true), testing::ExitedWithCode(0), "");
+    EXPECT_EXIT(ask_rate("nonexistent", false), testing::ExitedWithCode(0), "no sound device");
+}
+
+TEST_F(SinkApi, PaceReturnsAtOnceWithoutAClock) {
+    dSoundSinkID sink = dSoundSinkCreateNull();
+    EXPECT_LT(dSoundSinkPace(sink, 0.0), 0.1);
+    EXPECT_EQ(dSoundSinkPace(sink, -1.0), 0.0); // refused in words
+    dSoundSinkDestroy(sink);
+}
+
 } // namespace
