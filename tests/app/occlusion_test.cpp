@@ -126,6 +126,22 @@ TEST(Occlusion, HalfAWallHidesHalf) {
     EXPECT_NEAR(app.level(0.1, 0.19) / open_level(), 0.5, 0.01);
 }
 
+// Nobody looks at the nodes of a body that moves in its modes; it is hidden all the same.
+TEST(Occlusion, BodiesInTheirModesAreHiddenToo) {
+    const auto level = [](bool wall) {
+        Ringing app;
+        EXPECT_TRUE(dSoftBodySetTier(app.body, "modal"));
+        if (wall)
+            app.add_wall(0);
+        EXPECT_TRUE(dSoundSetOcclusion(app.sound, app.space, ~0ul));
+        app.run(96);
+        EXPECT_EQ(app.stats().rays > 0, wall);
+        return app.level(0.1, 0.19);
+    };
+    EXPECT_GT(level(false), 0.0);
+    EXPECT_EQ(level(true), 0.0);
+}
+
 TEST(Occlusion, CategoriesChooseWhatHides) {
     Ringing app;
     dGeomSetCategoryBits(app.add_wall(0), 4);
