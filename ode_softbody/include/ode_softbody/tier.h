@@ -47,13 +47,13 @@ typedef struct dSoftModalBasis {
     unsigned struct_size;
     int mode_count;
     int node_count;
-    const void* identity;    /**< equal for bodies that share their modes */
-    const dReal* omega;      /**< of each mode, undamped [rad/s] */
-    const dReal* decay;      /**< of its amplitude [1/s] */
-    const dReal* rest;       /**< x y z of each node in the frame [m] */
-    const float* shape;      /**< mode k at node n along axis a: shape[(3 n + a) * stride + k],
-                                  mass-normalised [kg^-1/2] */
-    int stride;              /**< of shape, in floats */
+    const void* identity; /**< equal for bodies that share their modes */
+    const dReal* omega;   /**< of each mode, undamped [rad/s] */
+    const dReal* decay;   /**< of its amplitude [1/s] */
+    const dReal* rest;    /**< x y z of each node in the frame [m] */
+    const float* shape;   /**< mode k at node n along axis a: shape[(3 n + a) * stride + k],
+                               mass-normalised [kg^-1/2] */
+    int stride;           /**< of shape, in floats */
 } dSoftModalBasis;
 /** @return 0 while the body is in the explicit tier. */
 DSOFT_API int dSoftBodyGetModalBasis(dSoftBodyID body, dSoftModalBasis* basis);
