@@ -1,6 +1,6 @@
 #include "reduced/modal_motion.h"
 
-#include "modal/avx2.h"
+#include "reduced/mode_rows.h"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -17,72 +17,6 @@ constexpr double kTurn = 0.01; ///< [rad]
 // Coupling of two modes below this share of the gap between them leaves either as it is.
 constexpr double kWeak = 0.01;
 constexpr double kMixedAtOnce = 0.5; ///< [rad], of the gap or the coupling
-
-/// The three numbers of a node: its rows times q.
-[[gnu::always_inline]] inline void expand_body(const float* row, std::size_t columns,
-                                               const float* q, double* out) {
-    constexpr std::size_t kLanes = ModalBasis::kLanes;
-    float sum[3][kLanes] = {};
-    for (std::size_t k = 0; k < columns; k += kLanes)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            for (std::size_t l = 0; l < kLanes; ++l)
-                sum[axis][l] += row[axis * columns + k + l] * q[k + l];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const float* s = sum[axis];
-        out[axis] =
-            static_cast<double>(((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7])));
-    }
-}
-
-[[gnu::always_inline]] inline void project_body(const float* row, std::size_t columns,
-                                                const double* f, double* q) {
-    for (std::size_t k = 0; k < columns; ++k)
-        q[k] += static_cast<double>(row[k]) * f[0] + static_cast<double>(row[columns + k]) * f[1] +
-                static_cast<double>(row[2 * columns + k]) * f[2];
-}
-
-// The same arithmetic at either register width: equal bits.
-void expand_narrow(const float* row, std::size_t columns, const float* q, double* out) {
-    expand_body(row, columns, q, out);
-}
-ODE_SOFTBODY_AVX2 void expand_wide(const float* row, std::size_t columns, const float* q,
-                                   double* out) {
-    expand_body(row, columns, q, out);
-}
-void project_narrow(const float* row, std::size_t columns, const double* f, double* q) {
-    project_body(row, columns, f, q);
-}
-ODE_SOFTBODY_AVX2 void project_wide(const float* row, std::size_t columns, const double* f,
-                                    double* q) {
-    project_body(row, columns, f, q);
-}
-
-void project(const ModalBasis& basis, std::size_t node, const Vec3& f,
-             std::span<double> q) noexcept {
-    (has_avx2() ? project_wide : project_narrow)(basis.row(node, 0), basis.columns, f.data(),
-                                                 q.data());
-}
-
-/// Amplitudes or their rates, made ready to be spread over nodes.
-class Spread {
-public:
-    /// @param scratch  of the basis's columns; in use while this lives.
-    Spread(const ModalBasis& basis, std::span<const double> q, std::span<float> scratch) noexcept
-        : basis_(basis), q_(scratch.data()), expand_(has_avx2() ? expand_wide : expand_narrow) {
-        std::transform(q.begin(), q.end(), scratch.begin(),
-                       [](double x) { return static_cast<float>(x); });
-    }
-    Vec3 at(std::size_t node) const noexcept {
-        Vec3 out;
-        expand_(basis_.row(node, 0), basis_.columns, q_, out.data());
-        return out;
-    }
-
-private:
-    const ModalBasis& basis_;
-    const float* q_;
-    void (*expand_)(const float*, std::size_t, const float*, double*);
-};
 
 } // namespace
 

@@ -72,7 +72,7 @@ TEST(HandOver, AutomaticTierRingsInModesOnceTheBlowIsOver) {
 TEST(HandOver, AStrongBlowIsExplicit) {
     TierRun run(TierChoice::automatic);
     for (int i = 0; i < 30; ++i) {
-        run.body().add_force(3, {0, 0, 1e5});
+        run.body().add_force(3, {0, 0, 1e6});
         run.step(1e-5);
     }
     run.step(1e-4);
