@@ -26,15 +26,16 @@ public:
         if (!call_.on_substep)
             return;
         const auto& triangles = body.surface().triangle;
+        const NodeState& state = body.shown_state();
         dSoftSubstep substep{};
         substep.struct_size = sizeof substep;
         substep.body = to_id(body);
         substep.time = view.time;
         substep.dt = view.dt;
-        substep.position = body.state().position.data();
-        substep.velocity = body.state().velocity.data();
+        substep.position = state.position.data();
+        substep.velocity = state.velocity.data();
         substep.stride = NodeArray::kStride;
-        substep.node_count = static_cast<int>(body.state().position.size());
+        substep.node_count = static_cast<int>(state.position.size());
         substep.triangle = triangles.front().data();
         substep.triangle_count = static_cast<int>(triangles.size());
         call_.on_substep(call_.data, &substep);

@@ -141,6 +141,14 @@ public:
     /// 75 products with the stiffness matrix; allocates.
     double present_critical_step() const;
 
+    /// The same for observers, who look often: where the body moves in modes, momentum is right to
+    /// some digits only.
+    const NodeState& shown_state() const noexcept {
+        if (modes_ && modes_->stale())
+            modes_->place_all();
+        return state_;
+    }
+
     /// How its motion is to be computed, and how it is at present.
     TierChoice tier_choice() const noexcept { return tier_choice_; }
     void set_tier(TierChoice choice) noexcept;

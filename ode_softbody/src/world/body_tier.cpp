@@ -23,7 +23,8 @@ constexpr std::size_t kMostModes = 500; ///< a body with more is soft: it deform
 constexpr double kTolerance = 0.025; ///< of the waveform: see linear_error()
 constexpr double kWellWithin = 0.5;  ///< of the tolerance, before modes take over: hysteresis
 constexpr double kUrgent = 4;        ///< tolerances off: not even a contact is waited for
-constexpr int kSampled = 8;          ///< steps between estimates of the error
+constexpr int kSampled = 8;          ///< steps between estimates of the error in modes
+constexpr int kSettled = 2;          ///< steps between looks whether modes may take over
 constexpr double kGrown = 1.5;       ///< of the displacement, that asks for one at once
 
 // Relative error of the linear waveform against the non-linear one, by the largest displacement in
@@ -36,6 +37,8 @@ constexpr double kLeastError = 1.4e-3;
 constexpr double kContactPace = 1 / (16 * kAudible);
 // What lies or rolls has no blow to resolve: sound alone asks for its substep.
 constexpr double kGentlePace = 1 / (4 * kAudible);
+// Nodes are shown to observers eight times a period of the highest audible tone.
+constexpr double kWatchedPace = 1 / (8 * kAudible);
 constexpr double kGentle = 0.1; ///< [m/s]
 constexpr double kEarly = 4;    ///< steps in which no blow may come, before modes take over
 
@@ -55,14 +58,16 @@ std::vector<Vec3> rest_normals(const TetMesh& mesh, const SurfaceNodes& surface)
 }
 
 /// Of ODE's body; none: the world's.
-Pose pose_of(dBodyID body) {
-    Pose pose;
+RigidMotion motion_of(dBodyID body) {
+    RigidMotion motion;
     if (!body)
-        return pose;
-    pose.position = Eigen::Map<const Vec3>(dBodyGetPosition(body));
+        return motion;
+    motion.pose.position = Eigen::Map<const Vec3>(dBodyGetPosition(body));
     const dReal* r = dBodyGetRotation(body);
-    pose.rotation << r[0], r[1], r[2], r[4], r[5], r[6], r[8], r[9], r[10];
-    return pose;
+    motion.pose.rotation << r[0], r[1], r[2], r[4], r[5], r[6], r[8], r[9], r[10];
+    motion.velocity = Eigen::Map<const Vec3>(dBodyGetLinearVel(body));
+    motion.spin = Eigen::Map<const Vec3>(dBodyGetAngularVel(body));
+    return motion;
 }
 
 /// Whether held nodes hold a body fast: three that are in no line.
@@ -188,7 +193,7 @@ void Body::choose_tier() noexcept {
             leave_modes();
         return;
     }
-    if (unsampled_ < kSampled || bearing_points_ != 0 || blow_is_near(kEarly))
+    if (unsampled_ < kSettled || bearing_points_ != 0 || blow_is_near(kEarly))
         return;
     unsampled_ = 0;
     level_velocity();
@@ -210,26 +215,21 @@ bool Body::blow_is_near(double steps) noexcept {
         return false;
     if (modes_)
         modes_->place_surface();
-    const double own = modes_ ? modes_->motion().largest_speed() : max_speed();
+    const double ahead = steps * world_.last_step();
     return std::any_of(rigid_pair_.begin(), rigid_pair_.end(), [&](const RigidPair& pair) {
         const std::optional<RigidShape> shape = capture_shape(pair.geom);
         if (!shape)
             return false;
-        double speed = own;
-        if (shape->body) {
-            const Eigen::Map<const Vec3> v(dBodyGetLinearVel(shape->body));
-            const Eigen::Map<const Vec3> w(dBodyGetAngularVel(shape->body));
-            speed += v.norm() + w.norm() * shape->size.norm();
-        }
-        if (speed < kGentle)
-            return false;
         if (shape->kind == ShapeKind::probed || shape->kind == ShapeKind::convex)
             return true; // whose distance takes more to tell
-        const Pose pose = pose_of(shape->body);
-        const double reach = steps * world_.last_step() * speed + contact_nodes_.shape.highest;
+        const RigidMotion other = motion_of(shape->body);
         return std::any_of(contact_nodes_.node.begin(), contact_nodes_.node.end(), [&](int node) {
-            const Vec3 x = state_.position[static_cast<std::size_t>(node)];
-            return shape->distance_at(pose, x).distance < reach;
+            const auto n = static_cast<std::size_t>(node);
+            const Vec3 x = state_.position[n];
+            const SurfaceDistance gap = shape->distance_at(other.pose, x);
+            const double closing = -gap.normal.dot(Vec3(state_.velocity[n]) - other.velocity_at(x));
+            return closing > kGentle &&
+                   gap.distance - contact_nodes_.shape.highest < ahead * closing;
         });
     });
 }
@@ -288,7 +288,7 @@ void Body::advance_ringing(double dt) noexcept {
 }
 
 void Body::pace(bool watched) noexcept {
-    modes_->set_pace(watched ? kContactPace : std::numeric_limits<double>::infinity());
+    modes_->set_pace(watched ? kWatchedPace : std::numeric_limits<double>::infinity());
 }
 
 double Body::contact_pace(double speed) const noexcept {

@@ -1,6 +1,7 @@
 #include "world/modal_tier.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace ode::soft {
@@ -15,6 +16,8 @@ ModalTier::ModalTier(std::shared_ptr<const ModalBasis> basis, const SurfaceNodes
         rest_box_.include(motion_.basis().rest[n]);
     }
     near_.reserve(surface.node.size());
+    all_.resize(motion_.basis().nodes());
+    std::iota(all_.begin(), all_.end(), 0);
     kept_ = motion_.state();
 }
 
@@ -22,6 +25,8 @@ void ModalTier::refresh() noexcept {
     motion_.give(nodes_);
     stale_ = false;
 }
+
+void ModalTier::place_all() noexcept { motion_.place(all_, nodes_); }
 
 void ModalTier::place_surface() noexcept { motion_.place(surface_.node, nodes_); }
 

@@ -24,6 +24,7 @@ public:
 
     bool stale() const noexcept { return stale_; } ///< nodes are older than the motion
     void refresh() noexcept;                       ///< all of them, with all momentum
+    void place_all() noexcept; ///< as observers see them: without the last digits of momentum
     void place_surface() noexcept;
     void place_near() noexcept; ///< those that contact looks at, unless they are up to date
     void moved() noexcept { stale_ = near_stale_ = true; }
@@ -55,6 +56,7 @@ private:
     const SurfaceNodes& surface_;
     NodeState& nodes_;
     std::vector<int> near_;
+    std::vector<int> all_;
     std::vector<double> inverse_mass_;
     Aabb rest_box_;
     double pace_ = 0;

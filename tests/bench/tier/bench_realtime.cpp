@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numbers>
 #include <span>
 
 namespace {
@@ -49,8 +50,12 @@ Outcome run(const Scene& scene, int order, TierChoice tier, double seconds,
             low = std::min(low, body.state().position[i].z());
         body.move_to(body.center_of_mass() + Vec3(0, 0, scene.height - low));
         body.set_velocity({0, 0, -scene.speed});
-    } else { // rings in flight
-        body.add_force(0, {0, 0, 300});
+    }
+    constexpr double kPulse = 3e-4, kFine = 1e-5;
+    for (double t = kFine / 2; scene.height == 0 && t < kPulse; t += kFine) { // rings in flight
+        const double phase = 2 * std::numbers::pi * t / kPulse;
+        body.add_force(0, {0, 0, 150 * (1 - std::cos(phase))});
+        run.step(kFine);
     }
     Outcome out;
     run.step(scene.step); // finds modes, once for all bodies of a kind

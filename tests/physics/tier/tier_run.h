@@ -25,7 +25,7 @@ public:
     explicit TierRun(TierChoice tier, int order = 1, double gravity = 0)
         : TierRun(make_bowl(0.1, 0.005, 1.4, 8, 48, 1), tier, order, gravity) {}
     TierRun(const TetMesh& mesh, TierChoice tier, int order, double gravity)
-        : ode_((dInitODE2(0), dWorldCreate())), space_(dSimpleSpaceCreate(nullptr)),
+        : ode_((dInitODE2(0), dWorldCreate())), space_(dHashSpaceCreate(nullptr)),
           world_(std::make_unique<SoftWorld>(ode_, space_)) {
         dWorldSetGravity(ode_, 0, 0, gravity);
         Solid solid = find_material("steel")->solid;
