@@ -25,7 +25,6 @@ struct Outcome {
     double cpu = 0;                          ///< s a simulated s, after the first step
     std::vector<AlignedVector<double>> rate; ///< of each mode, step by step
     std::shared_ptr<const ModalBasis> basis;
-    unsigned long substeps = 0, modal = 0;
 };
 
 struct Scene {
@@ -42,15 +41,8 @@ Outcome run(const Scene& scene, int order, TierChoice tier, double seconds,
             const std::shared_ptr<const ModalBasis>& basis) {
     TierRun run(tier, order, scene.height > 0 ? -kGravity : 0.0);
     Body& body = run.body();
-    if (scene.height > 0) {
-        dCreatePlane(run.space(), 0, 0, 1, 0);
-        body.rotate(Quat(Eigen::AngleAxisd(0.4, Vec3(1, 0.3, 0).normalized())));
-        double low = 1;
-        for (std::size_t i = 0; i < body.mass().size(); ++i)
-            low = std::min(low, body.state().position[i].z());
-        body.move_to(body.center_of_mass() + Vec3(0, 0, scene.height - low));
-        body.set_velocity({0, 0, -scene.speed});
-    }
+    if (scene.height > 0)
+        throw_down(run, scene.height, scene.speed);
     constexpr double kPulse = 3e-4, kFine = 1e-5;
     for (double t = kFine / 2; scene.height == 0 && t < kPulse; t += kFine) { // rings in flight
         const double phase = 2 * std::numbers::pi * t / kPulse;
@@ -62,33 +54,13 @@ Outcome run(const Scene& scene, int order, TierChoice tier, double seconds,
     const double first = run.seconds();
     for (double t = scene.step; t < seconds - scene.step / 2; t += scene.step) {
         run.step(scene.step);
-        if (!basis)
-            continue;
-        ModalMotion seen(basis);
-        seen.take(body.state(), {});
-        // Of amplitudes, not of their rates: the explicit velocity lags by half a substep.
-        AlignedVector<double> swing = seen.state().amplitude;
-        for (std::size_t k = 0; k < swing.size(); ++k)
-            swing[k] *= basis->omega[k];
-        out.rate.push_back(std::move(swing));
+        if (basis)
+            out.rate.push_back(audible(body, basis));
     }
     out.cpu = (run.seconds() - first) / (seconds - scene.step);
     if (body.rings())
         out.basis = body.modal_motion()->shared_basis();
-    out.substeps = run.world().stats().substeps;
-    out.modal = run.world().stats().modal_substeps;
     return out;
-}
-
-/// Relative L2 of all that is below 22 kHz.
-double error(const Outcome& of, const Outcome& reference) {
-    double off = 0, all = 0;
-    for (std::size_t t = 0; t < reference.rate.size(); ++t)
-        for (std::size_t k = 0; k < reference.rate[t].size(); ++k) {
-            off += std::pow(of.rate[t][k] - reference.rate[t][k], 2);
-            all += std::pow(reference.rate[t][k], 2);
-        }
-    return std::sqrt(off / all);
 }
 
 void print_scene(const Scene& scene, int order, double share) {
@@ -105,7 +77,7 @@ void print_scene(const Scene& scene, int order, double share) {
                                        share * scene.seconds),
                 nullptr);
         std::printf("| %s | %d | %s | %.3g | %.1f | %.2f %% |\n", scene.name, order, name_of(tier),
-                    timed.cpu, 1 / timed.cpu, 100 * error(like, nodes));
+                    timed.cpu, 1 / timed.cpu, 100 * audible_error(like.rate, nodes.rate));
         std::fflush(stdout);
     }
 }

@@ -6,8 +6,10 @@
 
 #include <ode/ode.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -75,6 +77,43 @@ inline double relative_error(const std::vector<double>& a, const std::vector<dou
         off += (a[i] - reference[i]) * (a[i] - reference[i]);
         all += reference[i] * reference[i];
     }
+    return std::sqrt(off / all);
+}
+
+/// Tilts the body and throws it down from so far over a floor [m], [m/s].
+inline void throw_down(TierRun& run, double height, double speed) {
+    Body& body = run.body();
+    dCreatePlane(run.space(), 0, 0, 1, 0);
+    body.rotate(Quat(Eigen::AngleAxisd(0.4, Vec3(1, 0.3, 0).normalized())));
+    double low = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < body.mass().size(); ++i)
+        low = std::min(low, body.state().position[i].z());
+    body.move_to(body.center_of_mass() + Vec3(0, 0, height - low));
+    body.set_velocity({0, 0, -speed});
+}
+
+/// What is heard of a body's motion, however it moves: amplitudes of its modes times their angular
+/// frequency [kg^1/2 m/s]. Of amplitudes, not of their rates: the explicit velocity lags by half a
+/// substep.
+inline AlignedVector<double> audible(const Body& body,
+                                     const std::shared_ptr<const ModalBasis>& basis) {
+    ModalMotion seen(basis);
+    seen.take(body.state(), {});
+    AlignedVector<double> swing = seen.state().amplitude;
+    for (std::size_t k = 0; k < swing.size(); ++k)
+        swing[k] *= basis->omega[k];
+    return swing;
+}
+
+/// Relative L2 difference of it, step by step.
+inline double audible_error(const std::vector<AlignedVector<double>>& of,
+                            const std::vector<AlignedVector<double>>& reference) {
+    double off = 0, all = 0;
+    for (std::size_t t = 0; t < reference.size(); ++t)
+        for (std::size_t k = 0; k < reference[t].size(); ++k) {
+            off += (of[t][k] - reference[t][k]) * (of[t][k] - reference[t][k]);
+            all += reference[t][k] * reference[t][k];
+        }
     return std::sqrt(off / all);
 }
 
