@@ -1,5 +1,5 @@
 // What stands between a sounding body and an ear hides it: softly, by the application's own space.
-#include "support/soft_app.h"
+#include "support/ringing_bar.h"
 
 #include <ode_sound/sound.hpp>
 
@@ -18,14 +18,8 @@ constexpr dReal kStep = 1.0 / 480; // [s]
 constexpr int kRate = 48000;
 
 /// A steel bar that rings from the first step on, an ear 1 m before it and a wall where asked for.
-struct Ringing : test::OdeApp {
-    Ringing() : soft(dSoftWorldCreate(world, space)) {
-        soft::MeshHandle mesh(dSoftMeshCreateBox(0.2, 0.03, 0.02, 10, 1, 1));
-        dSoftSolid steel = dSoftSolidDefault();
-        steel.alpha = 0;
-        steel.beta = 0;
-        body = dSoftBodyCreate(soft, mesh, &steel);
-        dSoftBodySetPosition(body, 0, 0, 0);
+struct Ringing : test::RingingBar {
+    Ringing() : RingingBar(0) {
         sound = sound::WorldHandle(dSoundWorldCreate(soft));
         ears = dSoundListenerCreate(sound);
         dSoundListenerSetPosition(ears, 0, -1, 0);
@@ -71,8 +65,6 @@ struct Ringing : test::OdeApp {
         return std::sqrt(sum / std::max(count, 1));
     }
 
-    soft::WorldHandle soft;
-    dSoftBodyID body = nullptr;
     sound::SinkHandle memory;
     sound::WorldHandle sound;
     dSoundListenerID ears = nullptr;

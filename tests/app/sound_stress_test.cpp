@@ -1,5 +1,6 @@
 // Ears where no ears should be, and bodies that go unstable while somebody listens: what is heard
 // stays finite, as long as time, and without clicks louder than the sound.
+#include "support/ringing_bar.h"
 #include "support/soft_app.h"
 
 #include <ode_sound/sound.hpp>
@@ -19,26 +20,12 @@ using namespace ode;
 constexpr dReal kStep = 1.0 / 480; // [s]
 constexpr int kRate = 48000;
 
-/// A steel bar that is struck once and rings.
-struct Ringing : test::OdeApp {
-    Ringing() : soft(dSoftWorldCreate(world, space)) {
-        soft::MeshHandle mesh(dSoftMeshCreateBox(0.2, 0.03, 0.02, 10, 1, 1));
-        dSoftSolid steel = dSoftSolidDefault();
-        steel.alpha = 0;
-        steel.beta = 1e-7;
-        body = dSoftBodyCreate(soft, mesh, &steel);
-        dSoftBodySetPosition(body, 0, 0, 0);
-    }
-    soft::WorldHandle soft;
-    dSoftBodyID body;
-};
-
 using Point = std::array<dReal, 3>;
 using Place = std::function<Point(int step)>;
 
 /// Frames of the left ear.
 std::vector<float> heard(const Place& place, int steps) {
-    Ringing app;
+    test::RingingBar app(1e-7); // struck once
     sound::WorldHandle world(dSoundWorldCreate(app.soft));
     dSoundListenerID ears = dSoundListenerCreate(world);
     sound::SinkHandle memory(dSoundSinkCreateMemory());
