@@ -51,6 +51,8 @@ Scene::Scene(double gravity) {
     dBodySetGravityMode(witness_, 0); // it would come down in time
     listening = this;
     dSetMessageHandler(&Scene::hear);
+    if (on_create)
+        on_create(*this);
 }
 
 Scene::~Scene() {

@@ -45,6 +45,9 @@ public:
     dBodyID add_box(const soft::Vec3& size, double mass, const soft::Vec3& at);
     void add_floor() { dCreatePlane(space, 0, 0, 1, 0); }
 
+    /// Called with every scene as it is made: how others look at the suite's motion.
+    static inline std::function<void(Scene&)> on_create;
+
     void step(double h);
     /// @param seconds  in steps of h.
     void run(double seconds, double h);

@@ -150,6 +150,18 @@ int dSoundSetRate(dSoundWorldID world, int rate) {
     });
 }
 
+int dSoundSetAlarm(dSoundWorldID world, dSoundAlarmCallback* callback, void* data) {
+    require_id(world, "dSoundSetAlarm");
+    return guarded("dSoundSetAlarm", 0, [&] {
+        if (callback)
+            world->world.set_alarm(
+                [=](dSoftBodyID body, double time) { callback(data, body, time); });
+        else
+            world->world.set_alarm({});
+        return 1;
+    });
+}
+
 int dSoundGetStats(dSoundWorldID world, dSoundStats* stats) {
     require_id(world, "dSoundGetStats");
     return guarded("dSoundGetStats", 0, [&] {
@@ -172,6 +184,8 @@ int dSoundGetStats(dSoundWorldID world, dSoundStats* stats) {
         all.seconds = world->world.seconds();
         all.peak = count.peak;
         all.rms = count.rms;
+        all.alarms = world->world.alarm().count();
+        all.alarm_time = world->world.alarm().last();
         all.rays = world->world.occlusion().rays();
         // An app built against an older header gets the fields that it knows.
         std::memcpy(stats, &all, std::min<std::size_t>(stats->struct_size, sizeof all));

@@ -21,6 +21,13 @@ bool hears_modes(const Settings& settings) noexcept {
     return settings.sampling == Sampling::kSinc && settings.radiation == Radiation::kTransfer;
 }
 
+Alarm::Fare fare_of(const void* body) {
+    dSoftStatus status{};
+    status.struct_size = sizeof status;
+    dSoftBodyGetStatus(static_cast<dSoftBodyID>(const_cast<void*>(body)), &status);
+    return {status.rollbacks, status.stopped != 0};
+}
+
 SoundWorld& self(void* data) noexcept { return *static_cast<SoundWorld*>(data); }
 
 } // namespace
@@ -185,6 +192,10 @@ void SoundWorld::on_step(double time) noexcept {
         cost_.run_whole([&] {
             scene_.end_step(time);
             occlusion_.update(scene_, time - stepped_);
+            alarm_.update(scene_, time, &fare_of,
+                          [this](const void* body, double when, Alarm::Cause cause) {
+                              raise(body, when, cause);
+                          });
         });
         stepped_ = time;
     } catch (const std::exception& e) {
@@ -193,7 +204,24 @@ void SoundWorld::on_step(double time) noexcept {
     }
 }
 
-void SoundWorld::on_body_end(dSoftBodyID body) noexcept { scene_.end_body(body); }
+void SoundWorld::raise(const void* key, double time, Alarm::Cause cause) {
+    const dSoftBodyID body = static_cast<dSoftBodyID>(const_cast<void*>(key));
+    const char* const words = cause == Alarm::Cause::kHeard ? "vibrates as nothing stable does"
+                              : cause == Alarm::Cause::kRedone
+                                  ? "had to be taken back to the start of a step"
+                                  : "has been stopped";
+    dMessage(0,
+             "instability alarm at %.6f s: soft body %p %s; give it a shorter substep "
+             "(dSoftBodySetSubstep) or a stable integrator",
+             time, static_cast<void*>(body), words);
+    if (tell_)
+        tell_(body, time);
+}
+
+void SoundWorld::on_body_end(dSoftBodyID body) noexcept {
+    alarm_.forget(body);
+    scene_.end_body(body);
+}
 
 void SoundWorld::on_world_end() noexcept {
     occlusion_.set(nullptr, 0); // the space may end with the world

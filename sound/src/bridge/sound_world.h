@@ -1,11 +1,13 @@
 #pragma once
 
 #include "bridge/occlusion.h"
+#include "mix/alarm.h"
 #include "mix/cpu_clock.h"
 #include "mix/scene.h"
 
 #include <ode_softbody/softbody.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -27,6 +29,9 @@ public:
     /// As Scene::set().
     void set(const Settings& settings);
     Occlusion& occlusion() noexcept { return occlusion_; }
+    const Alarm& alarm() const noexcept { return alarm_; }
+    /// @param tell  besides the message; may be empty.
+    void set_alarm(std::function<void(dSoftBodyID, double)> tell) { tell_ = std::move(tell); }
 
     Listener& add_listener();
     void remove_listener(Listener& listener) noexcept;
@@ -49,6 +54,7 @@ private:
     void observe();
     void ignore() noexcept;
     void play_out() noexcept;
+    void raise(const void* body, double time, Alarm::Cause cause);
     std::shared_ptr<const ModalVoiceModel> voice_model(dSoftBodyID body);
 
     dSoftWorldID world_; ///< null once it has ended
@@ -59,6 +65,8 @@ private:
     /// By the identity of their modes, while some voice has them.
     std::map<const void*, std::weak_ptr<const ModalVoiceModel>> voice_model_;
     Occlusion occlusion_;
+    Alarm alarm_;
+    std::function<void(dSoftBodyID, double)> tell_;
     double stepped_ = 0.0; ///< end of the last step [s]
     SampledCost cost_;
     std::vector<double> padded_; ///< positions, then velocities, where the stride is three

@@ -101,6 +101,25 @@ double dot(const double* a, const double* b, int n) {
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
+void differences(int nodes, const double* const row[8], double own[4], double next[4]) {
+    Lane square[4] = {}, product[4] = {};
+    for (int i = 0; i < nodes; i += 4) {
+        Lane first[7], third[5];
+        for (int k = 0; k < 7; ++k)
+            first[k] = load(row[k] + i) - load(row[k + 1] + i);
+        for (int k = 0; k < 5; ++k)
+            third[k] = (first[k] - first[k + 1]) - (first[k + 1] - first[k + 2]);
+        for (int k = 0; k < 4; ++k) {
+            square[k] += third[k] * third[k];
+            product[k] += third[k] * third[k + 1];
+        }
+    }
+    for (int k = 0; k < 4; ++k) {
+        own[k] = (square[k][0] + square[k][1]) + (square[k][2] + square[k][3]);
+        next[k] = (product[k][0] + product[k][1]) + (product[k][2] + product[k][3]);
+    }
+}
+
 void gather(int nodes, const int* node, const double* position, int stride, const double* area,
             double* last, double* volume) {
     for (int i = 0; i < nodes; i += 4) {
@@ -342,6 +361,7 @@ const Kernels kKernels = {ODE_SOUND_ISA_NAME,
                           &mix,
                           &lean,
                           &high_pass,
+                          &differences,
                           {&splat<Facing::kAll>, &splat<Facing::kVisible>, &splat<Facing::kCosine>,
                            &splat<Facing::kLeaning>}};
 

@@ -73,6 +73,10 @@ struct Kernels {
     void (*high_pass)(int nodes, const double* in, double keep, double pass, double* before,
                       double* after, double extra, const double* share, double* out);
 
+    /// Of the third differences a_i of row[i] .. row[i + 3], i = 0..4: own[i] = a_i . a_i and
+    /// next[i] = a_i . a_(i+1), i = 0..3; nodes a multiple of four.
+    void (*differences)(int nodes, const double* const row[8], double own[4], double next[4]);
+
     /// Adds flow / distance of every node to the rings of the ears at the retarded time.
     /// @return largest delay that was not dropped [samples]; 0 if all were.
     double (*splat[4])(const SplatSurface& surface, const SplatEar* ear, int ears);

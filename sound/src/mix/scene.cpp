@@ -140,7 +140,11 @@ void Scene::end_step(double time) {
             listener->forget(*body.source);
         return true;
     });
-    const std::int64_t open = settings_.first_open_frame(time);
+    // Sound comes later while a body of long substeps is there; none of it is lost.
+    int lag = settings_.lag();
+    for (const Body& body : bodies_)
+        lag = std::max(lag, body.source->lag());
+    const std::int64_t open = settings_.first_open_frame(time, lag);
     for (const auto& listener : listeners_)
         listener->render(open);
     stepping_ = false;

@@ -34,11 +34,15 @@ double Settings::send_rate() const noexcept {
                                        : static_cast<double>(rate);
 }
 
-std::int64_t Settings::first_open_frame(double time) const noexcept {
+int Settings::lag() const noexcept {
+    return sampling == Sampling::kPaper ? PaperSurface::kLag : SurfaceFlow::kLag;
+}
+
+std::int64_t Settings::first_open_frame(double time, int lag) const noexcept {
     const auto sent = static_cast<std::int64_t>(std::floor(time * send_rate()));
     if (sampling == Sampling::kPaper)
-        return sent - PaperSurface::kMaxLag - PaperLine::kBefore;
-    const std::int64_t ready = sent - SurfaceFlow::kMaxLag - EarLine::lookahead(rate);
+        return sent - lag - PaperLine::kBefore;
+    const std::int64_t ready = sent - lag - EarLine::lookahead(rate);
     return static_cast<std::int64_t>(std::floor(static_cast<double>(ready) / 2.0));
 }
 

@@ -26,9 +26,15 @@ struct Settings {
     /// Samples that sources are sent at [Hz].
     double send_rate() const noexcept;
 
+    /// Least BodySource::lag().
+    int lag() const noexcept;
     /// First frame that waves from sources after `time` [s] could still reach: frames before it may
     /// be read. This bounds latency: 2.1 ms at 48 kHz for "sinc", 0.25 ms for "paper".
-    std::int64_t first_open_frame(double time) const noexcept;
+    /// @param lag  of sources; more where a body has substeps beyond 167 us (at 48 kHz).
+    std::int64_t first_open_frame(double time, int lag) const noexcept;
+    std::int64_t first_open_frame(double time) const noexcept {
+        return first_open_frame(time, lag());
+    }
 };
 
 } // namespace ode::sound

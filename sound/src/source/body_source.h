@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -76,6 +77,13 @@ public:
     /// Groups of what the blocks carry, made at the first call, and their middles as last seen [m].
     /// After the first push().
     virtual const Patches& patches(std::span<std::array<double, 3>> centre) = 0;
+
+    /// Latest that it gives off a sample after the sample's own time; never less than it was
+    /// [samples of the grid].
+    virtual int lag() const noexcept = 0;
+
+    /// When it last moved as nothing stable does, see GrowthWatch [s]; -HUGE_VAL: never.
+    virtual double grown_at() const noexcept { return -HUGE_VAL; }
 
     /// Nothing more will come of it until the next push().
     virtual bool is_silent() const noexcept = 0;

@@ -18,6 +18,7 @@ public:
     int capacity() const noexcept { return static_cast<int>(begin_.size()); }
     void reserve(int intervals); ///< keeps what is there; allocates
     int size() const noexcept { return size_; }
+    int nodes() const noexcept { return static_cast<int>(nodes_); }
     void clear() noexcept { size_ = 0; }
 
     /// Opens an interval [s] in place of the oldest. @return its volumes [m^3], to be filled in.

@@ -15,7 +15,8 @@ namespace ode::sound {
 class PaperSurface final : public BodySource {
 public:
     /// Latest that an audio sample is given off after its own time [audio samples].
-    static constexpr int kMaxLag = 9;
+    static constexpr int kLag = 9;
+    int lag() const noexcept override { return kLag; }
 
     /// @param rate       audio rate [Hz]; eq. 7's fmax is half of it.
     /// @param impedance  z = rho c [Pa s/m].

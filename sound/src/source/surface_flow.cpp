@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace ode::sound {
@@ -13,7 +14,7 @@ namespace {
 constexpr double kGathersPerSample =
     8.0;                                // box filter: -0.08 dB at 20 kHz, first image above 360 kHz
 constexpr double kAreaSamples = 2.0;    // areas are steps of half the audio rate: inaudible
-constexpr double kMaxStretch = 16.0;    // substeps up to 167 us at 48 kHz are free of images
+constexpr double kMaxStretch = 64.0;    // substeps up to 533 us at 48 kHz are free of images
 constexpr double kEven = 0.02;          // intervals are of equal length
 constexpr double kCrossOver = 4e-3;     // after a jump [s]
 constexpr double kLeastDistance = 1e-6; // of a node that bears no area [m]
@@ -67,6 +68,7 @@ void SurfaceFlow::adapt(double substep) {
     // that wavering substeps do not change the filter each time.
     interval_ = substep > shortest ? 1.25 * substep : shortest;
     stretch_ = std::clamp(interval_ * grid_rate_, 1.0, kMaxStretch);
+    lag_ = std::max(lag_, static_cast<int>(StepKernel::kHalfWidth * stretch_) + 8);
     // An interval is at least two thirds of the wanted one (push() rounds to whole substeps).
     const double span = 2.0 * StepKernel::kHalfWidth * stretch_ + 8.0; // grid samples
     history_.reserve(4 + static_cast<int>(1.5 * span / (interval_ * grid_rate_)));
@@ -97,6 +99,14 @@ void SurfaceFlow::rewind(const SurfaceView& view, double duration) {
     surface_.areas(last_.data(), area_.data());
     area_seen_ = area_;
     refreshed_ = view.time - duration;
+    double area = 0.0, far = 0.0; // squares
+    for (int i = 0; i < 4 * surface_.nodes(); ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        area += area_[k] * area_[k];
+        far = std::max(far, last_[k] * last_[k]);
+    }
+    constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+    watch_.set_floor(GrowthWatch::kGain * kRounding * kRounding * far * area);
     for (std::size_t i = 0; i < softening_.size(); ++i) {
         // A disk of the node's area has at its centre the potential of a point sqrt(a / (4 pi))
         // away.
@@ -129,7 +139,8 @@ bool SurfaceFlow::has_jumped(const SurfaceView& view, double duration) const noe
 void SurfaceFlow::record(const SurfaceView& view, BlockSink& out) {
     const double begin = event_end_;
     const double duration = view.time - begin;
-    if (!entering_ && has_jumped(view, duration)) {
+    const bool jumped = !entering_ && has_jumped(view, duration);
+    if (jumped) {
         places_.jump(last_.data(), places_.newest() + 1, static_cast<int>(kCrossOver * grid_rate_));
         rewind(view, duration);
     }
@@ -157,6 +168,10 @@ void SurfaceFlow::record(const SurfaceView& view, BlockSink& out) {
     double* volume = history_.push(begin, view.time, false);
     kernel.gather(surface_.nodes(), surface_.body_node(), view.position, view.stride, area_.data(),
                   last_.data(), volume);
+    const bool fresh = begin == refreshed_;
+    if (watch_.look(history_, !entering_ && !jumped && fresh == was_fresh_))
+        grown_at_ = view.time;
+    was_fresh_ = fresh;
     if (entering_) {
         for (int i = 0; i < surface_.nodes(); ++i)
             fade_.value()[i] -= volume[i] / duration;

@@ -3,6 +3,7 @@
 #include "source/body_source.h"
 #include "source/flow_fade.h"
 #include "source/flow_history.h"
+#include "source/growth_watch.h"
 #include "source/lean.h"
 #include "source/place_history.h"
 
@@ -18,8 +19,9 @@ namespace ode::sound {
 /// and extrapolated to the middle of the next, so that a turning body does not seem to breathe.
 class SurfaceFlow final : public BodySource {
 public:
-    /// Latest that a grid sample is given off after its own time [grid samples].
-    static constexpr int kMaxLag = 112;
+    /// Latest that a grid sample is given off after its own time, for substeps up to 167 us at 48
+    /// kHz [grid samples].
+    static constexpr int kLag = 112;
     static constexpr int kOversampling = 2;
 
     /// @param rate   audio rate [Hz].
@@ -31,6 +33,8 @@ public:
     void advance_to(double time, BlockSink& out) override;
     const Patches& patches(std::span<std::array<double, 3>> centre) override;
     bool is_silent() const noexcept override { return state_ == State::kSilent; }
+    int lag() const noexcept override { return lag_; }
+    double grown_at() const noexcept override { return grown_at_; }
 
 private:
     enum class State {
@@ -58,6 +62,7 @@ private:
 
     double interval_;           ///< wanted between gathers [s]
     double stretch_ = 1.0;      ///< of the low-pass, for bodies of long substeps
+    int lag_ = kLag;            ///< [grid samples]
     double seen_ = 0.0;         ///< end of the last substep [s]
     double substep_ = 0.0;      ///< its length [s]
     double last_length_ = 0.0;  ///< of the last interval [s]
@@ -72,6 +77,9 @@ private:
     std::optional<Lean> lean_; ///< from the first view on
     Patches patches_;
     FlowHistory history_;
+    GrowthWatch watch_;
+    bool was_fresh_ = false;      ///< the last interval was the first with its areas
+    double grown_at_ = -HUGE_VAL; ///< [s]
     FlowFade fade_;
     PlaceHistory places_;
     AlignedVector last_;      ///< points at event_end_ [m]

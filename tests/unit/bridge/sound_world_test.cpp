@@ -36,6 +36,7 @@ int dSoftWorldRemoveObserver(dSoftWorldID, void* data) {
 }
 dReal dSoftWorldGetTime(dSoftWorldID) { return 0.0; }
 int dSoftBodyGetModalBasis(dSoftBodyID, dSoftModalBasis*) { return 0; }
+int dSoftBodyGetStatus(dSoftBodyID, dSoftStatus*) { return 0; }
 int dSoftBodyGetTriangles(dSoftBodyID, const int**) { return 0; }
 
 namespace ode::sound::test {
