@@ -65,7 +65,7 @@ private:
         state.body = to_id(view.body);
         state.time = view.time;
         state.dt = view.dt;
-        state.mode_count = static_cast<int>(motion.basis().modes);
+        state.mode_count = static_cast<int>(motion.basis().audible);
         state.amplitude = now.amplitude.data();
         state.rate = now.rate.data();
         const Vec3 spin = motion.spin();

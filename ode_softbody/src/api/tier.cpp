@@ -42,7 +42,7 @@ int dSoftBodyGetModalBasis(dSoftBodyID id, dSoftModalBasis* basis) {
     const ModalBasis& own = body->modal_motion()->basis();
     static_assert(sizeof(Vec3) == 3 * sizeof(dReal));
     dSoftModalBasis all{};
-    all.mode_count = static_cast<int>(own.modes);
+    all.mode_count = static_cast<int>(own.audible);
     all.node_count = static_cast<int>(own.nodes());
     all.identity = &own;
     all.omega = own.omega.data();

@@ -153,7 +153,8 @@ private:
                      const RigidShadow& rigid) const noexcept;
     /// Friction of a node that bears. @param across  the normal in the shape's frame.
     Vec3 grip_of(std::size_t node, const Vec3& local, const Vec3& across, const Vec3& slip,
-                 const Vec3& normal, double press, const Mat3& rotation) noexcept;
+                 const Vec3& normal, double press, const Mat3& rotation, const TouchForces& on,
+                 const Vec3& base) noexcept;
 
     const SurfaceNodes& nodes_;
     dGeomID geom_;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "base/types.h"
+#include "couple/joint_inertia.h"
 
 #include <cstdint>
 #include <utility>
@@ -50,8 +50,10 @@ private:
 class NodeForces {
 public:
     /// @param share  keeps book of what is added here, unless null.
-    NodeForces(NodeArray& all, ContactShare* share = nullptr) noexcept
-        : all_(&all), share_(share) {}
+    /// @param joint  is told of it, unless null.
+    NodeForces(NodeArray& all, ContactShare* share = nullptr,
+               JointInertia* joint = nullptr) noexcept
+        : all_(&all), share_(share), joint_(joint) {}
 
     Eigen::Map<const Vec3> operator[](std::size_t node) const noexcept {
         return std::as_const(*all_)[node];
@@ -60,11 +62,15 @@ public:
         (*all_)[node] += force;
         if (share_)
             share_->add(node, force);
+        if (joint_)
+            joint_->push(node, force);
     }
+    const JointInertia* joint() const noexcept { return joint_; }
 
 private:
     NodeArray* all_;
     ContactShare* share_;
+    JointInertia* joint_;
 };
 
 } // namespace ode::soft

@@ -111,14 +111,17 @@ double NodeContact::grip_load(std::size_t node, const Vec3& x, const Vec3& norma
 }
 
 Vec3 NodeContact::grip_of(std::size_t i, const Vec3& local, const Vec3& across, const Vec3& slip,
-                          const Vec3& normal, double press, const Mat3& rotation) noexcept {
+                          const Vec3& normal, double press, const Mat3& rotation,
+                          const TouchForces& on, const Vec3& base) noexcept {
     if (!anchored_[i]) {
         anchored_[i] = 1;
         anchor_[i] = local;
     }
     if (law_.friction == 0)
         return Vec3::Zero();
-    const double k = kTangential * softening_ * stiffness_[i];
+    double k = kTangential * softening_ * stiffness_[i];
+    if (!nodes_.residual_across.empty())
+        k /= 1 + k * nodes_.residual_across[index(nodes_.node[i])];
     const double c = kTangential * softening_ * damping_[i];
     const double grip = law_.friction * press;
     Vec3 stretch = local - anchor_[i];
@@ -126,6 +129,16 @@ Vec3 NodeContact::grip_of(std::size_t i, const Vec3& local, const Vec3& across, 
     if (clamp_length(stretch, grip / k))
         anchor_[i] = local - stretch;
     Vec3 f = rotation * (-k * stretch) - c * (slip - slip.dot(normal) * normal);
+    if (on.force.joint()) {
+        // The substep is long for these springs: the force is the one at its end.
+        const Vec3 stretched = rotation * stretch;
+        const auto across_of = [&](const Vec3& v) { return Vec3(v - v.dot(normal) * normal); };
+        const Vec3 along = (stretched + on.dt * across_of(slip)).stableNormalized();
+        const Ahead ahead = ahead_of(on, index(nodes_.node[i]), along);
+        const Vec3 creep = across_of(ahead.velocity - base);
+        f = -(k * (stretched + on.dt * creep) + c * creep) /
+            (1 + ahead.compliance * on.dt * (k * on.dt + c));
+    }
     clamp_length(f, grip);
     return f;
 }
@@ -149,22 +162,26 @@ void NodeContact::push_at_once(const NodeArray& position, const TouchForces& on,
                 continue;
             const Vec3 normal = pose.rotation * gap.normal;
             const double parting = slip.dot(normal);
-            const double lightness = on.inverse_mass[n];
+            const Ahead ahead = ahead_of(on, n, normal);
             const double press =
                 NormalContact{.stiffness = stiffness_[i],
                               .damping = damping_[i],
-                              .compliance = lightness,
+                              .compliance = ahead.compliance,
                               .depth = -gap.distance,
                               .speed = -parting,
-                              .ahead = -(parting + on.dt * lightness * normal.dot(on.force[n]))}
+                              .ahead = (motion.velocity_at(x) - ahead.velocity).dot(normal)}
                     .press(on.dt)
                     .force;
             if (press == 0)
                 continue;
             ++bearing_;
-            const Vec3 f =
-                grip_of(i, local, gap.normal, slip, normal, press, pose.rotation) + press * normal;
-            on.force.add(n, f);
+            const bool told = on.force.joint();
+            if (told) // friction asks what the normal force does
+                on.force.add(n, press * normal);
+            const Vec3 grip = grip_of(i, local, gap.normal, slip, normal, press, pose.rotation, on,
+                                      motion.velocity_at(x));
+            const Vec3 f = grip + press * normal;
+            on.force.add(n, told ? grip : f);
             sum.force -= f;
             sum.torque -= (x - motion.pose.position).cross(f);
         }
@@ -177,9 +194,9 @@ void NodeContact::sweep(const TouchForces& on, RigidResponse& rigid) noexcept {
     for (Touch& touch : touch_) {
         const std::size_t i = index(touch.node);
         const std::size_t n = index(nodes_.node[i]);
-        const double lightness = on.inverse_mass[n];
         const Vec3& x = touch.at;
-        const Vec3 ahead = on.velocity[n] + on.dt * lightness * on.force[n] - rigid.velocity_at(x);
+        const auto [velocity, lightness] = ahead_of(on, n, touch.normal);
+        const Vec3 ahead = velocity - rigid.velocity_at(x);
         const Press press =
             NormalContact{.stiffness = stiffness_[i],
                           .damping = damping_[i],
@@ -202,8 +219,7 @@ void NodeContact::sweep(const TouchForces& on, RigidResponse& rigid) noexcept {
 void NodeContact::enter_books(const TouchForces& on, const RigidResponse& rigid) noexcept {
     for (const Touch& touch : touch_) {
         const std::size_t n = index(nodes_.node[index(touch.node)]);
-        const Vec3 ahead =
-            on.velocity[n] + on.dt * on.inverse_mass[n] * on.force[n] - rigid.velocity_at(touch.at);
+        const Vec3 ahead = ahead_of(on, n, touch.normal).velocity - rigid.velocity_at(touch.at);
         book_[index(touch.node)].enter(touch.press.spring,
                                        -on.dt * (touch.slip + ahead).dot(touch.normal));
     }
@@ -220,7 +236,7 @@ std::size_t NodeContact::drag(const TouchForces& on, RigidShadow& rigid) noexcep
         ++bearing_;
         const std::size_t i = index(touch.node);
         const Vec3 f = grip_of(i, touch.local, touch.across, touch.slip, touch.normal,
-                               touch.press.force, rotation);
+                               touch.press.force, rotation, on, motion.velocity_at(touch.at));
         if (law_.friction == 0)
             continue;
         on.force.add(index(nodes_.node[i]), f);

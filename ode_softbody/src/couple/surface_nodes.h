@@ -43,6 +43,7 @@ struct SurfaceNodes {
     /// What each mesh node yields along its normal that its motion doesn't show, because it moves
     /// in few modes [m/N]; empty: nothing.
     std::vector<double> residual;
+    std::vector<double> residual_across; ///< the same, to a force along the surface
 
     /// Triangles round a mesh node.
     std::span<const int> fan(int mesh_node) const noexcept {
@@ -51,15 +52,23 @@ struct SurfaceNodes {
     }
 
     double residual_at(int of_triangle, const Vec3& weight) const noexcept {
-        double yields = 0;
-        for (std::size_t i = 0; !residual.empty() && i < 3; ++i)
-            yields += weight[static_cast<int>(i)] *
-                      residual[static_cast<std::size_t>(
-                          triangle[static_cast<std::size_t>(of_triangle)][i])];
-        return yields;
+        return weighted(residual, of_triangle, weight);
+    }
+    double residual_across_at(int of_triangle, const Vec3& weight) const noexcept {
+        return weighted(residual_across, of_triangle, weight);
     }
 
 private:
+    double weighted(const std::vector<double>& of_node, int of_triangle,
+                    const Vec3& weight) const noexcept {
+        double sum = 0;
+        for (std::size_t i = 0; !of_node.empty() && i < 3; ++i)
+            sum += weight[static_cast<int>(i)] *
+                   of_node[static_cast<std::size_t>(
+                       triangle[static_cast<std::size_t>(of_triangle)][i])];
+        return sum;
+    }
+
     std::vector<std::size_t> fan_start_; ///< per mesh node, into fan_
     std::vector<int> fan_;
 };

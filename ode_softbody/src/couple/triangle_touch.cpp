@@ -44,20 +44,19 @@ void open_book(TriangleTouch& touch, TouchState& state, double dt) noexcept {
 
 namespace {
 
-struct Ahead {
-    Vec3 slip;
-    double compliance; ///< of the triangle [1/kg]
-};
-
-/// Of the rigid against the soft side after the kick, with all force so far.
-Ahead look_ahead(const TriangleTouch& touch, const SurfaceNodes& surface, const TouchForces& on,
-                 const RigidResponse& rigid) noexcept {
+/// The touched point after the kick.
+Ahead ahead_of(const TriangleTouch& touch, const SurfaceNodes& surface, const TouchForces& on,
+               const Vec3& direction) noexcept {
     const auto& corner = surface.triangle[index(touch.triangle)];
-    Ahead out{rigid.velocity_at(touch.at.point), 0};
+    if (const JointInertia* joint = on.force.joint()) {
+        const CarriedPoint point{corner, touch.at.weight};
+        return {joint->ahead(point), joint->compliance(point, direction)};
+    }
+    Ahead out{Vec3::Zero(), 0};
     for (int i = 0; i < 3; ++i) {
         const std::size_t n = index(corner[index(i)]);
         const double w = touch.at.weight[i];
-        out.slip -= w * (on.velocity[n] + on.dt * on.inverse_mass[n] * on.force[n]);
+        out.velocity += w * (on.velocity[n] + on.dt * on.inverse_mass[n] * on.force[n]);
         out.compliance += w * w * on.inverse_mass[n];
     }
     return out;
@@ -67,13 +66,14 @@ Ahead look_ahead(const TriangleTouch& touch, const SurfaceNodes& surface, const 
 
 void sweep_triangle(TriangleTouch& touch, const TouchState& state, const SurfaceNodes& surface,
                     const TouchForces& on, RigidResponse& rigid) noexcept {
-    const Ahead ahead = look_ahead(touch, surface, on, rigid);
+    const Ahead ahead = ahead_of(touch, surface, on, state.normal);
+    const Vec3 slip = rigid.velocity_at(touch.at.point) - ahead.velocity;
     const Press press = NormalContact{.stiffness = state.stiffness,
                                       .damping = touch.damping,
                                       .compliance = ahead.compliance,
                                       .depth = touch.depth,
                                       .speed = -touch.slip.dot(state.normal),
-                                      .ahead = -ahead.slip.dot(state.normal) +
+                                      .ahead = -slip.dot(state.normal) +
                                                on.dt * ahead.compliance * touch.press.force,
                                       .point = state.is_point ? &state.point : nullptr,
                                       .owed = touch.owed}
@@ -87,8 +87,9 @@ void sweep_triangle(TriangleTouch& touch, const TouchState& state, const Surface
 
 void enter_book(const TriangleTouch& touch, TouchState& state, const SurfaceNodes& surface,
                 const TouchForces& on, const RigidResponse& rigid) noexcept {
-    const Ahead ahead = look_ahead(touch, surface, on, rigid);
-    state.book.enter(touch.press.spring, -on.dt * (touch.slip + ahead.slip).dot(state.normal));
+    const Vec3 ahead =
+        rigid.velocity_at(touch.at.point) - ahead_of(touch, surface, on, state.normal).velocity;
+    state.book.enter(touch.press.spring, -on.dt * (touch.slip + ahead).dot(state.normal));
 }
 
 bool drag_triangle(const TriangleTouch& touch, TouchState& state, double friction, double softening,
@@ -99,7 +100,8 @@ bool drag_triangle(const TriangleTouch& touch, TouchState& state, double frictio
     state.bears = true;
     if (friction == 0)
         return true;
-    const double k = kTangential * softening * state.stiffness;
+    double k = kTangential * softening * state.stiffness;
+    k /= 1 + k * surface.residual_across_at(touch.triangle, touch.at.weight);
     const double c = kTangential * softening * touch.damping;
     const Vec3 across = touch.slip - touch.slip.dot(state.normal) * state.normal;
     const double grip = friction * touch.press.force;
@@ -107,6 +109,15 @@ bool drag_triangle(const TriangleTouch& touch, TouchState& state, double frictio
     state.stretch -= state.normal.dot(state.stretch) * state.normal;
     clamp_length(state.stretch, grip / k);
     Vec3 f = -k * state.stretch - c * across;
+    if (on.force.joint()) {
+        // The substep is long for these springs: the force is the one at its end.
+        const Vec3 along = (state.stretch + on.dt * across).stableNormalized();
+        const Ahead ahead = ahead_of(touch, surface, on, along);
+        Vec3 slip = rigid.motion().velocity_at(touch.at.point) - ahead.velocity;
+        slip -= slip.dot(state.normal) * state.normal;
+        f = -(k * (state.stretch + on.dt * slip) + c * slip) /
+            (1 + ahead.compliance * on.dt * (k * on.dt + c));
+    }
     clamp_length(f, grip);
     share(touch, surface, -f, on.force);
     rigid.add({f, (touch.at.point - rigid.motion().pose.position).cross(f)});

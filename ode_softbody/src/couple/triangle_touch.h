@@ -43,6 +43,21 @@ struct TouchForces {
     double dt;
 };
 
+/// A point of the soft side over the substep to come.
+struct Ahead {
+    Vec3 velocity;     ///< mean, with all force so far [m/s]
+    double compliance; ///< to a push along the direction asked for [1/kg]
+};
+[[gnu::always_inline]] inline Ahead ahead_of(const TouchForces& on, std::size_t node,
+                                             const Vec3& direction) noexcept {
+    if (const JointInertia* joint = on.force.joint()) {
+        const CarriedPoint point{{static_cast<int>(node)}, {1, 0, 0}};
+        return {joint->ahead(point), joint->compliance(point, direction)};
+    }
+    const double lightness = on.inverse_mass[node];
+    return {on.velocity[node] + on.dt * lightness * on.force[node], lightness};
+}
+
 /// Velocity of the rigid against the soft side at a touch [m/s].
 Vec3 slip_at(const TriangleTouch& touch, const SurfaceNodes& surface, const NodeArray& velocity,
              const RigidMotion& motion) noexcept;

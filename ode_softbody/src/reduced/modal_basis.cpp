@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace ode::soft {
 namespace {
@@ -11,6 +12,10 @@ namespace {
 // Weaker couplings turn a mode by less than a degree in the time that it takes to die away, at any
 // spin that a body of metal survives.
 constexpr double kLeastCoupling = 1e-3;
+
+std::size_t whole_lanes(std::size_t modes) noexcept {
+    return (modes + ModalBasis::kLanes - 1) / ModalBasis::kLanes * ModalBasis::kLanes;
+}
 
 void lay_out(const ModalModel& modes, ModalBasis& out) {
     out.shape.assign(3 * out.nodes() * out.columns, 0.0f);
@@ -48,8 +53,8 @@ void find_inertia(const ModalModel& modes, ModalBasis& out) {
 
 /// Each mode with those that a spin could mix it with: neighbours in frequency.
 void find_gyration(const ModalModel& modes, ModalBasis& out) {
-    for (std::size_t i = 0; i < out.modes; ++i)
-        for (std::size_t j = i + 1; j < out.modes; ++j) {
+    for (std::size_t i = 0; i < out.audible; ++i)
+        for (std::size_t j = i + 1; j < out.audible; ++j) {
             if (out.omega[j] > 1.05 * out.omega[i])
                 break;
             Vec3 coupling = Vec3::Zero();
@@ -67,13 +72,17 @@ void find_gyration(const ModalModel& modes, ModalBasis& out) {
 
 ModalBasis make_basis(const ModalModel& modes, std::span<const Vec3> position,
                       std::span<const double> mass, std::span<const double> decay,
-                      std::span<const double> residual, bool held) {
+                      ResidualFlexibility residual, double audible_limit, bool held) {
     ModalBasis out;
     out.modes = modes.mode_count();
-    out.columns = (out.modes + ModalBasis::kLanes - 1) / ModalBasis::kLanes * ModalBasis::kLanes;
+    out.columns = whole_lanes(out.modes);
+    out.audible = static_cast<std::size_t>(
+        std::upper_bound(modes.frequency.begin(), modes.frequency.end(), audible_limit) -
+        modes.frequency.begin());
+    out.audible_columns = whole_lanes(out.audible);
     out.rest.assign(position.begin(), position.end());
     out.mass.assign(mass.begin(), mass.end());
-    out.residual.assign(residual.begin(), residual.end());
+    out.residual = std::move(residual);
     out.held = held;
     Vec3 centre = Vec3::Zero();
     for (std::size_t n = 0; n < out.nodes(); ++n) {

@@ -8,6 +8,12 @@
 
 namespace ode::soft {
 
+/// What each mesh node yields to a steady force beyond what rigid motion and the modes do [m/N].
+struct ResidualFlexibility {
+    std::vector<double> normal; ///< along its surface normal
+    std::vector<double> across; ///< along the surface
+};
+
 /// What a body's vibrations are made of, as plain data that any number of like bodies share: its
 /// modes in the body's own frame, laid out for the two products that motion needs, places of nodes
 /// from amplitudes and forces on amplitudes from forces on nodes.
@@ -23,15 +29,17 @@ struct ModalBasis {
         Vec3 coupling; ///< [-]
     };
 
-    std::size_t modes = 0;       ///< without padding
-    std::size_t columns = 0;     ///< with
-    std::vector<Vec3> rest;      ///< of each node [m]
-    std::vector<double> mass;    ///< of each node [kg]
-    double radius = 0;           ///< of the farthest node from the origin [m]
-    double total_mass = 0;       ///< [kg]
-    Mat3 inertia = Mat3::Zero(); ///< of the body at rest [kg m^2]
-    AlignedVector<double> omega; ///< undamped [rad/s], one a column
-    AlignedVector<double> decay; ///< of amplitudes [1/s]
+    std::size_t modes = 0;   ///< without padding
+    std::size_t columns = 0; ///< with
+    std::size_t audible = 0; ///< of the modes, the first: what lies above is there for contact
+    std::size_t audible_columns = 0; ///< whole lanes that hold these
+    std::vector<Vec3> rest;          ///< of each node [m]
+    std::vector<double> mass;        ///< of each node [kg]
+    double radius = 0;               ///< of the farthest node from the origin [m]
+    double total_mass = 0;           ///< [kg]
+    Mat3 inertia = Mat3::Zero();     ///< of the body at rest [kg m^2]
+    AlignedVector<double> omega;     ///< undamped [rad/s], one a column
+    AlignedVector<double> decay;     ///< of amplitudes [1/s]
     /// Row 3 n + axis: of node n along the axis [kg^-1/2]. Displacements are small: their last
     /// digits are of no place in the world, and both products use the same numbers, so that what
     /// contact gives the modes is what it sees them do.
@@ -43,10 +51,8 @@ struct ModalBasis {
     AlignedVector<double> inertia_slope;
     /// Sum of m phi: three rows of `columns` [kg^1/2]; zero of a body that nothing holds.
     AlignedVector<double> inertia_share;
-    /// What a node yields along its surface normal to a steady force beyond what the modes do
-    /// [m/N]; 0 inside and where held.
-    std::vector<double> residual;
-    bool held = false; ///< some nodes are: there is no rigid motion
+    ResidualFlexibility residual; ///< 0 inside and where held
+    bool held = false;            ///< some nodes are: there is no rigid motion
 
     std::size_t nodes() const noexcept { return rest.size(); }
     const float* row(std::size_t node, std::size_t axis) const noexcept {
@@ -63,9 +69,9 @@ struct PushedNodes {
 /// @param position  of nodes at rest, mesh frame [m]
 /// @param mass      lumped, of each node: what `modes` were found with [kg]
 /// @param decay     of each mode [1/s]
-/// @param residual  of each node, see ModalBasis
+/// @param audible_limit  frequency up to which they are heard [Hz]
 ModalBasis make_basis(const ModalModel& modes, std::span<const Vec3> position,
                       std::span<const double> mass, std::span<const double> decay,
-                      std::span<const double> residual, bool held);
+                      ResidualFlexibility residual, double audible_limit, bool held);
 
 } // namespace ode::soft

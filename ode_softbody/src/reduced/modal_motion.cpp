@@ -21,12 +21,13 @@ constexpr double kMixedAtOnce = 0.5; ///< [rad], of the gap or the coupling
 } // namespace
 
 ModalMotion::ModalMotion(std::shared_ptr<const ModalBasis> basis)
-    : basis_(std::move(basis)), oscillators_(basis_->omega, basis_->decay),
-      load_(basis_->columns, 0.0), settled_(basis_->columns, 0.0) {
+    : basis_(std::move(basis)), oscillators_(basis_->omega, basis_->decay), awake_(basis_->columns),
+      load_(basis_->columns, 0.0), impulse_(basis_->columns, 0.0), settled_(basis_->columns, 0.0) {
     for (AlignedVector<float>& q : single_)
         q.assign(basis_->columns, 0.0f);
     state_.amplitude.assign(basis_->columns, 0.0);
     state_.rate.assign(basis_->columns, 0.0);
+    ahead_ = state_;
     if (!basis_->held)
         inverse_inertia_ = basis_->inertia.inverse();
 }
@@ -64,6 +65,8 @@ void ModalMotion::fit_frame(const NodeArray& position, std::span<const int> held
 
 double ModalMotion::take(const NodeState& nodes, std::span<const int> held) noexcept {
     const ModalBasis& b = *basis_;
+    foreseen_ = 0;
+    awake_ = b.columns;
     fit_frame(nodes.position, held);
     const Mat3 back = state_.turn.toRotationMatrix().transpose();
     Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero(), turned = Vec3::Zero();
@@ -93,7 +96,7 @@ double ModalMotion::take(const NodeState& nodes, std::span<const int> held) noex
                 b.mass[n] * (back * (nodes.velocity[n] - state_.velocity) - spin.cross(local)),
                 state_.rate);
     }
-    const Spread rate(b, state_.rate, single_[1]);
+    const Spread rate(b, awake(state_.rate), single_[1]);
     double lost = 0;
     for (std::size_t n = 0; n < b.nodes(); ++n) {
         const Vec3 local = back * (nodes.position[n] - state_.center);
@@ -106,7 +109,8 @@ double ModalMotion::take(const NodeState& nodes, std::span<const int> held) noex
 
 void ModalMotion::give(NodeState& nodes) const noexcept {
     const ModalBasis& b = *basis_;
-    const Spread moved(b, state_.amplitude, single_[0]), rate(b, state_.rate, single_[1]);
+    const Spread moved(b, awake(state_.amplitude), single_[0]),
+        rate(b, awake(state_.rate), single_[1]);
     const Mat3 turn = state_.turn.toRotationMatrix();
     Mat3 inertia = Mat3::Zero();
     Vec3 left = state_.spin_momentum, drift = Vec3::Zero();
@@ -130,8 +134,8 @@ void ModalMotion::give(NodeState& nodes) const noexcept {
 void ModalMotion::place(std::span<const int> nodes, NodeState& out) const noexcept {
     const Mat3 turn = state_.turn.toRotationMatrix();
     const Vec3 spin = this->spin();
-    const Spread moved(*basis_, state_.amplitude, single_[0]),
-        rate(*basis_, state_.rate, single_[1]);
+    const Spread moved(*basis_, awake(state_.amplitude), single_[0]),
+        rate(*basis_, awake(state_.rate), single_[1]);
     for (const int node : nodes) {
         const auto n = static_cast<std::size_t>(node);
         const Vec3 arm = turn * (basis_->rest[n] + moved.at(n));
@@ -152,7 +156,7 @@ void ModalMotion::set_load(const Vec3& gravity, const NodeArray* forces) noexcep
             for (std::size_t axis = 0; axis < 3; ++axis)
                 load_[k] += b.inertia_share[axis * b.columns + k] * local[static_cast<int>(axis)];
     }
-    const Spread moved(b, state_.amplitude, single_[0]);
+    const Spread moved(b, awake(state_.amplitude), single_[0]);
     for (std::size_t n = 0; forces && n < b.nodes(); ++n) {
         const Vec3 f = (*forces)[n];
         if (f.isZero(0))
@@ -165,22 +169,49 @@ void ModalMotion::set_load(const Vec3& gravity, const NodeArray* forces) noexcep
     loaded_ = std::any_of(load_.begin(), load_.end(), [](double f) { return f != 0; });
 }
 
+const ModalState& ModalMotion::foresee(double dt) noexcept {
+    if (foreseen_ == dt)
+        return ahead_;
+    ahead_ = state_;
+    foreseen_ = 0;
+    advance(dt);
+    std::swap(state_, ahead_);
+    foreseen_ = dt;
+    return ahead_;
+}
+
 void ModalMotion::push(const ContactShare& forces, const NodeState& nodes, double dt) noexcept {
     const Mat3 back = state_.turn.toRotationMatrix().transpose();
+    std::fill(impulse_.begin(), impulse_.end(), 0.0);
     forces.each([&](std::size_t n, const auto& f) {
         const Vec3 impulse = dt * f;
-        project(*basis_, n, back * impulse, state_.rate);
+        project(*basis_, n, back * impulse, impulse_);
         if (basis_->held)
             return;
         state_.velocity += impulse / basis_->total_mass;
         state_.spin_momentum += (nodes.position[n] - state_.center).cross(impulse);
     });
+    awake_ = basis_->columns;
+    unpruned_ = 0;
+    if (foreseen_ != dt) {
+        for (std::size_t k = 0; k < awake_; ++k)
+            state_.rate[k] += impulse_[k];
+        foreseen_ = 0;
+        return;
+    }
+    oscillators_.respond(dt, impulse_, ahead_.amplitude, ahead_.rate);
+    if (!basis_->held)
+        fly(dt);
+    ahead_.center = state_.center;
+    ahead_.velocity = state_.velocity;
+    ahead_.turn = state_.turn;
+    ahead_.spin_momentum = state_.spin_momentum;
 }
 
-Vec3 ModalMotion::spin() const noexcept {
+Vec3 ModalMotion::spin_of(const Vec3& momentum) const noexcept {
     if (basis_->held)
         return Vec3::Zero();
-    return state_.turn * (inverse_inertia_ * (state_.turn.conjugate() * state_.spin_momentum));
+    return state_.turn * (inverse_inertia_ * (state_.turn.conjugate() * momentum));
 }
 
 void ModalMotion::turn_by(const Vec3& spin, double dt) noexcept {
@@ -254,6 +285,13 @@ void ModalMotion::mix(const Vec3& spin, double dt) noexcept {
 }
 
 void ModalMotion::advance(double dt) noexcept {
+    rest_what_died();
+    if (foreseen_ == dt) {
+        std::swap(state_, ahead_);
+        foreseen_ = 0;
+        return;
+    }
+    foreseen_ = 0;
     const Vec3 spin = state_.turn.conjugate() * this->spin();
     const bool spins = spin.squaredNorm() > 0;
     if (!basis_->held)
@@ -263,7 +301,7 @@ void ModalMotion::advance(double dt) noexcept {
         std::copy(load_.begin(), load_.end(), settled_.begin());
         if (spins)
             stretch_by_spin(spin);
-        for (std::size_t k = 0; k < basis_->columns; ++k) {
+        for (std::size_t k = 0; k < awake_; ++k) {
             settled_[k] /= basis_->omega[k] * basis_->omega[k];
             state_.amplitude[k] -= settled_[k];
         }
@@ -273,17 +311,38 @@ void ModalMotion::advance(double dt) noexcept {
     for (int i = 0; i < parts; ++i) {
         if (spins)
             mix(spin, h / 2);
-        oscillators_.advance(h, state_.amplitude, state_.rate);
+        oscillators_.advance(h, std::span(state_.amplitude).first(awake_),
+                             std::span(state_.rate).first(awake_));
         if (spins)
             mix(spin, h / 2);
     }
-    for (std::size_t k = 0; shifted && k < basis_->columns; ++k)
+    for (std::size_t k = 0; shifted && k < awake_; ++k)
         state_.amplitude[k] += settled_[k];
+}
+
+void ModalMotion::rest_what_died() noexcept {
+    constexpr int kPatience = 16;    // advances: pushes come in bursts
+    constexpr double kShare = 1e-12; // of the energy
+    const std::size_t heard = basis_->audible_columns;
+    if (awake_ == heard || ++unpruned_ < kPatience)
+        return;
+    unpruned_ = 0;
+    double above = 0;
+    for (std::size_t k = heard; k < awake_; ++k) {
+        const double a = basis_->omega[k] * state_.amplitude[k];
+        above += a * a + state_.rate[k] * state_.rate[k];
+    }
+    if (above > 2 * kShare * (vibration_energy() + rigid_energy()))
+        return;
+    for (ModalState* state : {&state_, &ahead_})
+        for (AlignedVector<double>* q : {&state->amplitude, &state->rate})
+            std::fill(q->begin() + static_cast<std::ptrdiff_t>(heard), q->end(), 0.0);
+    awake_ = heard;
 }
 
 double ModalMotion::vibration_energy() const noexcept {
     double sum = 0;
-    for (std::size_t k = 0; k < basis_->columns; ++k) {
+    for (std::size_t k = 0; k < awake_; ++k) {
         const double a = basis_->omega[k] * state_.amplitude[k];
         sum += a * a + state_.rate[k] * state_.rate[k];
     }
@@ -297,7 +356,7 @@ double ModalMotion::rigid_energy() const noexcept {
 
 double ModalMotion::largest_displacement() const noexcept {
     double sum = 0;
-    for (std::size_t k = 0; k < basis_->columns; ++k) {
+    for (std::size_t k = 0; k < awake_; ++k) {
         const double ahead = state_.rate[k] / basis_->omega[k];
         sum +=
             basis_->reach[k] * std::sqrt(state_.amplitude[k] * state_.amplitude[k] + ahead * ahead);
@@ -307,7 +366,7 @@ double ModalMotion::largest_displacement() const noexcept {
 
 double ModalMotion::largest_speed() const noexcept {
     double sum = 0;
-    for (std::size_t k = 0; k < basis_->columns; ++k) {
+    for (std::size_t k = 0; k < awake_; ++k) {
         const double ahead = state_.amplitude[k] * basis_->omega[k];
         sum += basis_->reach[k] * std::sqrt(state_.rate[k] * state_.rate[k] + ahead * ahead);
     }
@@ -315,9 +374,10 @@ double ModalMotion::largest_speed() const noexcept {
 }
 
 double ModalMotion::displacement_envelope(std::span<const int> nodes) noexcept {
-    for (std::size_t k = 0; k < basis_->columns; ++k)
+    for (std::size_t k = 0; k < awake_; ++k)
         settled_[k] = state_.rate[k] / basis_->omega[k];
-    const Spread moved(*basis_, state_.amplitude, single_[0]), swing(*basis_, settled_, single_[1]);
+    const Spread moved(*basis_, awake(state_.amplitude), single_[0]),
+        swing(*basis_, awake(settled_), single_[1]);
     double most = 0;
     for (const int node : nodes) {
         const auto n = static_cast<std::size_t>(node);

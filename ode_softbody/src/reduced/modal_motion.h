@@ -37,7 +37,11 @@ public:
     const ModalBasis& basis() const noexcept { return *basis_; }
     const std::shared_ptr<const ModalBasis>& shared_basis() const noexcept { return basis_; }
     const ModalState& state() const noexcept { return state_; }
-    void set_state(const ModalState& state) noexcept { state_ = state; } ///< of this basis
+    void set_state(const ModalState& state) noexcept { ///< of this basis
+        state_ = state;
+        awake_ = basis_->columns;
+        foreseen_ = 0;
+    }
 
     /// Takes over the motion of nodes whose velocity is that of the positions' time. What is in no
     /// mode is lost, momentum is not. @param held  nodes that tell the frame; none: all do.
@@ -50,9 +54,20 @@ public:
 
     /// Steady loads of the time to come. @param forces  on nodes, or null [N].
     void set_load(const Vec3& gravity, const NodeArray* forces) noexcept;
-    /// An impulse: each force for dt [s] at the nodes' place() just taken.
+    /// Where it will be after dt [s] if nothing pushes it; good until advance().
+    const ModalState& foresee(double dt) noexcept;
+    /// Amplitude after dt for a unit of rate before, column by column [s].
+    std::span<const double> drift(double dt) noexcept { return oscillators_.drift(dt); }
+    /// An impulse before advance(dt): each force for dt [s] at the nodes' place().
     void push(const ContactShare& forces, const NodeState& nodes, double dt) noexcept;
     void advance(double dt) noexcept;
+
+    /// The modes that are in motion: all, or those that are heard, once what lies above has died
+    /// away. The others are zero.
+    std::size_t awake() const noexcept { return awake_; }
+    std::span<const double> awake(const AlignedVector<double>& q) const noexcept {
+        return std::span(q).first(awake_);
+    }
 
     double vibration_energy() const noexcept; ///< [J]
     double rigid_energy() const noexcept;     ///< [J]
@@ -61,7 +76,9 @@ public:
     double largest_speed() const noexcept;
     /// Largest displacement of any of some nodes, as far as it swings: sqrt(u^2 + (u'/w)^2) [m].
     double displacement_envelope(std::span<const int> nodes) noexcept;
-    Vec3 spin() const noexcept; ///< world [rad/s]
+    Vec3 spin() const noexcept { return spin_of(state_.spin_momentum); } ///< world [rad/s]
+    /// What an angular momentum amounts to [rad/s], both world.
+    Vec3 spin_of(const Vec3& momentum) const noexcept;
     /// Inverse of the mass that a push at a node along a direction of the body's frame meets
     /// [1/kg].
     double inverse_mass(std::size_t node, const Vec3& direction) const noexcept;
@@ -73,15 +90,21 @@ private:
     void stretch_by_spin(const Vec3& spin) noexcept; ///< into settled_
     void mix(const Vec3& spin, double dt) noexcept;
     int pieces(const Vec3& spin, double dt) const noexcept;
+    void rest_what_died() noexcept;
 
     std::shared_ptr<const ModalBasis> basis_;
     Oscillators oscillators_;
     ModalState state_;
+    std::size_t awake_;   ///< columns
+    int unpruned_ = 0;    ///< advances since the modes above were last looked at
+    ModalState ahead_;    ///< foreseen
+    double foreseen_ = 0; ///< for so long; 0: not at all [s]
     Mat3 inverse_inertia_ = Mat3::Zero();
     Vec3 steady_force_ = Vec3::Zero();                   ///< on the whole body [N]
     Vec3 steady_torque_ = Vec3::Zero();                  ///< about its centre [N m]
     AlignedVector<double> load_;                         ///< on each mode, steady [N kg^-1/2]
     mutable std::array<AlignedVector<float>, 2> single_; ///< scratch: what is spread over nodes
+    AlignedVector<double> impulse_;                      ///< scratch
     AlignedVector<double> settled_; ///< scratch: where the modes would come to rest
     bool loaded_ = false;           ///< load_ isn't zero
 };

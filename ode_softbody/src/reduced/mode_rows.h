@@ -1,5 +1,6 @@
 #pragma once
 
+#include "couple/joint_inertia.h"
 #include "reduced/modal_basis.h"
 
 #include <span>
@@ -7,26 +8,39 @@
 namespace ode::soft {
 
 /// q += the node's rows times f: what a push at a node gives the modes.
+/// @param q  of the first modes; so below.
 void project(const ModalBasis& basis, std::size_t node, const Vec3& f,
              std::span<double> q) noexcept;
+
+/// The same in single precision, mode by mode times `scale`.
+void project(const ModalBasis& basis, std::size_t node, const Vec3& f, std::span<const float> scale,
+             std::span<float> q) noexcept;
+
+/// Sum over the modes of scale times the square of the weighted nodes' rows times f.
+double square(const ModalBasis& basis, const CarriedPoint& point, const Vec3& f,
+              std::span<const float> scale) noexcept;
 
 /// Amplitudes or their rates, made ready to be spread over nodes.
 class Spread {
 public:
-    /// @param scratch  of the basis's columns; in use while this lives.
+    /// @param q        of the first modes, whole lanes.
+    /// @param scratch  as long at least; in use while this lives.
     Spread(const ModalBasis& basis, std::span<const double> q, std::span<float> scratch) noexcept;
+    /// @param q  borrowed for life.
+    Spread(const ModalBasis& basis, std::span<const float> q) noexcept;
 
     /// The node's rows times q.
     Vec3 at(std::size_t node) const noexcept {
         Vec3 out;
-        expand_(basis_.row(node, 0), basis_.columns, q_, out.data());
+        expand_(basis_.row(node, 0), basis_.columns, columns_, q_, out.data());
         return out;
     }
 
 private:
     const ModalBasis& basis_;
     const float* q_;
-    void (*expand_)(const float*, std::size_t, const float*, double*);
+    std::size_t columns_; ///< of the basis, that q has
+    void (*expand_)(const float*, std::size_t, std::size_t, const float*, double*);
 };
 
 } // namespace ode::soft

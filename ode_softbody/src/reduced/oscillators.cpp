@@ -8,9 +8,9 @@
 namespace ode::soft {
 namespace {
 
-[[gnu::always_inline]] inline void advance_body(const double* table, std::size_t n, double* q,
-                                                double* v) {
-    for (std::size_t i = 0; i < n; ++i) {
+[[gnu::always_inline]] inline void advance_body(const double* table, std::size_t n,
+                                                std::size_t count, double* q, double* v) {
+    for (std::size_t i = 0; i < count; ++i) {
         const double x = table[i] * q[i] + table[n + i] * v[i];
         v[i] = table[2 * n + i] * q[i] + table[3 * n + i] * v[i];
         q[i] = x;
@@ -18,11 +18,12 @@ namespace {
 }
 
 // The same arithmetic at either register width: equal bits.
-void advance_narrow(const double* table, std::size_t n, double* q, double* v) {
-    advance_body(table, n, q, v);
+void advance_narrow(const double* table, std::size_t n, std::size_t count, double* q, double* v) {
+    advance_body(table, n, count, q, v);
 }
-ODE_SOFTBODY_AVX2 void advance_wide(const double* table, std::size_t n, double* q, double* v) {
-    advance_body(table, n, q, v);
+ODE_SOFTBODY_AVX2 void advance_wide(const double* table, std::size_t n, std::size_t count,
+                                    double* q, double* v) {
+    advance_body(table, n, count, q, v);
 }
 
 } // namespace
@@ -71,10 +72,24 @@ const Oscillators::Length& Oscillators::length(double dt) noexcept {
     return made;
 }
 
+void Oscillators::respond(double dt, std::span<const double> impulse, std::span<double> amplitude,
+                          std::span<double> rate) noexcept {
+    const std::size_t n = size();
+    const double* table = length(dt).table.data();
+    for (std::size_t i = 0; i < n; ++i) {
+        amplitude[i] += table[n + i] * impulse[i];
+        rate[i] += table[3 * n + i] * impulse[i];
+    }
+}
+
+std::span<const double> Oscillators::drift(double dt) noexcept {
+    return std::span<const double>(length(dt).table).subspan(size(), size());
+}
+
 void Oscillators::advance(double dt, std::span<double> amplitude, std::span<double> rate) noexcept {
     const Length& by = length(dt);
-    (has_avx2() ? advance_wide : advance_narrow)(by.table.data(), size(), amplitude.data(),
-                                                 rate.data());
+    (has_avx2() ? advance_wide : advance_narrow)(by.table.data(), size(), amplitude.size(),
+                                                 amplitude.data(), rate.data());
 }
 
 } // namespace ode::soft

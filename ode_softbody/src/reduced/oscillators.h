@@ -20,8 +20,14 @@ public:
     /// @param decay  d >= 0 [1/s]; above omega the motion creeps back.
     Oscillators(std::span<const double> omega, std::span<const double> decay);
 
-    /// Advances amplitudes and their rates by dt [s].
+    /// Advances amplitudes and their rates by dt [s]; of the first, or of all.
     void advance(double dt, std::span<double> amplitude, std::span<double> rate) noexcept;
+
+    /// What pushes at the beginning have added by the end. @param impulse  to each rate.
+    void respond(double dt, std::span<const double> impulse, std::span<double> amplitude,
+                 std::span<double> rate) noexcept;
+    /// Amplitude after dt for a unit of rate before [s].
+    std::span<const double> drift(double dt) noexcept;
 
     std::size_t size() const noexcept { return omega_.size(); }
 

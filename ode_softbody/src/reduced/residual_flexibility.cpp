@@ -26,10 +26,11 @@ std::vector<Eigen::Index> rows_of(const ModalProblem& problem) {
 
 } // namespace
 
-std::vector<double> residual_flexibility(const TetMesh& mesh, std::span<const Solid> solids,
+ResidualFlexibility residual_flexibility(const TetMesh& mesh, std::span<const Solid> solids,
                                          const ModalOptions& options, const ModalModel& modes,
                                          const PushedNodes& pushed) {
-    std::vector<double> out(mesh.node.size(), 0.0);
+    ResidualFlexibility out{std::vector<double>(mesh.node.size(), 0.0),
+                            std::vector<double>(mesh.node.size(), 0.0)};
     if (modes.mode_count() == 0)
         return out;
     ModalProblem problem(mesh, solids, options);
@@ -40,23 +41,26 @@ std::vector<double> residual_flexibility(const TetMesh& mesh, std::span<const So
     factor.factorise(problem.system(), shift);
     const RowMatrix& rigid = problem.rigid_motions();
     RowMatrix x;
-    for (std::size_t first = 0; first < pushed.node.size(); first += kAtOnce) {
-        const auto count =
-            std::min<Eigen::Index>(kAtOnce, static_cast<Eigen::Index>(pushed.node.size() - first));
+    const auto pushes = static_cast<Eigen::Index>(2 * pushed.node.size());
+    for (Eigen::Index first = 0; first < pushes; first += kAtOnce) {
+        const Eigen::Index count = std::min(kAtOnce, pushes - first);
         x.setZero(problem.system().size(), count);
         const auto each = [&](auto visit) {
             for (Eigen::Index c = 0; c < count; ++c) {
-                const std::size_t i = first + static_cast<std::size_t>(c);
-                const auto node = static_cast<std::size_t>(pushed.node[i]);
+                const auto push = static_cast<std::size_t>(first + c);
+                const auto node = static_cast<std::size_t>(pushed.node[push / 2]);
+                const Vec3& normal = pushed.normal[push / 2];
+                const bool across = push % 2 != 0;
                 if (row[node] >= 0)
-                    visit(c, node, row[node], pushed.normal[i]);
+                    visit(c, (across ? out.across : out.normal)[node], node, row[node],
+                          across ? Vec3(normal.unitOrthogonal()) : normal);
             }
         };
-        each([&](Eigen::Index c, std::size_t, Eigen::Index r, const Vec3& n) {
+        each([&](Eigen::Index c, double&, std::size_t, Eigen::Index r, const Vec3& n) {
             x.block<3, 1>(r, c) = n;
         });
         factor.solve(x);
-        each([&](Eigen::Index c, std::size_t node, Eigen::Index r, const Vec3& n) {
+        each([&](Eigen::Index c, double& yields, std::size_t node, Eigen::Index r, const Vec3& n) {
             double left = n.dot(Vec3(x.block<3, 1>(r, c)));
             for (Eigen::Index k = 0; k < rigid.cols(); ++k) {
                 const double push = n.dot(Vec3(rigid.block<3, 1>(r, k)));
@@ -66,7 +70,7 @@ std::vector<double> residual_flexibility(const TetMesh& mesh, std::span<const So
                 const double push = n.dot(modes.shape_at(k, node));
                 left -= push * push / (eigenvalue_of(modes.frequency[k]) + shift);
             }
-            out[node] = std::max(0.0, left);
+            yields = std::max(0.0, left);
         });
     }
     return out;

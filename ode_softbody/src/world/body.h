@@ -242,8 +242,11 @@ private:
     // body_tier.cpp
     bool may_ring() noexcept; ///< modes can be had
     void choose_tier() noexcept;
-    /// Whether so many steps may bring a contact that is none of the gentle ones.
-    bool blow_is_near(double steps) noexcept;
+    /// Closing speed of the fastest contact that so many steps may bring [m/s].
+    double blow_ahead(double steps) noexcept;
+    /// Whether such a blow may be taken in modes.
+    bool bears_in_modes(double blow, ModalTier& modes) noexcept;
+    double linear_error_of(double displacement) const noexcept; ///< [m]
     void level_velocity() noexcept; ///< brings it to the positions' time
     void enter_modes() noexcept;
     void leave_modes() noexcept;  ///< the nodes take over

@@ -8,7 +8,7 @@ namespace ode::soft {
 
 ModalTier::ModalTier(std::shared_ptr<const ModalBasis> basis, const SurfaceNodes& surface,
                      std::span<const Vec3> normal, NodeState& nodes)
-    : motion_(std::move(basis)), surface_(surface), nodes_(nodes),
+    : motion_(std::move(basis)), view_(motion_, nodes), surface_(surface), nodes_(nodes),
       inverse_mass_(motion_.basis().nodes(), 0.0), rest_box_(Aabb::empty()) {
     for (std::size_t i = 0; i < surface.node.size(); ++i) {
         const auto n = static_cast<std::size_t>(surface.node[i]);
@@ -30,9 +30,9 @@ void ModalTier::place_all() noexcept { motion_.place(all_, nodes_); }
 
 void ModalTier::place_surface() noexcept { motion_.place(surface_.node, nodes_); }
 
-void ModalTier::place_near() noexcept {
+void ModalTier::place_near(double dt) noexcept {
     if (near_stale_)
-        motion_.place(near_, nodes_);
+        view_.begin(near_, dt);
     near_stale_ = false;
 }
 

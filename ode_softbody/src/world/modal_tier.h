@@ -2,7 +2,7 @@
 
 #include "collide/aabb.h"
 #include "couple/surface_nodes.h"
-#include "reduced/modal_motion.h"
+#include "reduced/contact_view.h"
 
 #include <memory>
 #include <span>
@@ -26,8 +26,13 @@ public:
     void refresh() noexcept;                       ///< all of them, with all momentum
     void place_all() noexcept; ///< as observers see them: without the last digits of momentum
     void place_surface() noexcept;
-    void place_near() noexcept; ///< those that contact looks at, unless they are up to date
-    void moved() noexcept { stale_ = near_stale_ = true; }
+    /// Those that contact looks at, before a substep of dt [s], unless they are up to date.
+    void place_near(double dt) noexcept;
+    JointInertia& joint() noexcept { return view_; } ///< good after place_near()
+    void moved() noexcept {
+        stale_ = near_stale_ = true;
+        view_.end();
+    }
 
     void clear_near() noexcept {
         near_.clear();
@@ -53,6 +58,7 @@ public:
 
 private:
     ModalMotion motion_;
+    ContactView view_;
     const SurfaceNodes& surface_;
     NodeState& nodes_;
     std::vector<int> near_;

@@ -152,7 +152,7 @@ ContactTally RigidExchange::add_forces(double dt) noexcept {
             continue;
         }
         if (body.rings())
-            body.modes_->place_near();
+            body.modes_->place_near(dt);
         sum.tests += contact.law->find(body.state_.position, body.state_.velocity,
                                        shadow_[contact.shadow], dt);
         if (!contact.law->is_touching())
@@ -223,7 +223,10 @@ double RigidExchange::sweep(double dt) noexcept {
 }
 
 TouchForces RigidExchange::forces_on(Body& body, double dt) noexcept {
-    return {body.contact_inverse_mass(), body.state_.velocity, {body.force_, &body.contacts_}, dt};
+    return {body.contact_inverse_mass(),
+            body.state_.velocity,
+            {body.force_, &body.contacts_, body.rings() ? &body.modes_->joint() : nullptr},
+            dt};
 }
 
 void RigidExchange::advance(double dt) noexcept {

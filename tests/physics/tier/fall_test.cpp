@@ -42,10 +42,9 @@ Fallen fall(TierChoice tier, int order, double speed, double time,
 
 class Fall : public testing::TestWithParam<std::tuple<int, double, double>> {};
 
-// What differs is the blow itself: what lies above 22 kHz yields as if it stood still, while a
-// contact of 0.1 ms sets it ringing (with modes up to 88 kHz the first case errs by 4 %), and
-// friction meets a surface that doesn't yield sideways (without friction the velocity after the
-// blow is right to 0.3 and 2 %).
+// Contact sees modes up to 77 kHz and the rest as if it stood still. What is left is that rest
+// (modes to 88 kHz: 0.7 % in the first case), the explicit run's own period error and, in the last
+// case, what isn't linear in a blow that bends the rim by a tenth of its thickness.
 TEST_P(Fall, InModesIsNearTheExplicitOne) {
     const auto [order, speed, most] = GetParam();
     const double time = order == 1 ? 0.02 : 0.004;
@@ -56,27 +55,32 @@ TEST_P(Fall, InModesIsNearTheExplicitOne) {
         "order %d, %g m/s: waveform error %.1f %%, velocity after the blow off by %.1f %%\n", order,
         speed, 100 * error, 100 * (modes.velocity - nodes.velocity).norm() / speed);
     EXPECT_LT(error, most);
-    EXPECT_LT((modes.velocity - nodes.velocity).norm(), 0.1 * speed);
-    EXPECT_LT((modes.angular - nodes.angular).norm(), 0.03 * nodes.angular.norm());
-    EXPECT_NEAR(modes.energy, nodes.energy, 0.005 * nodes.energy);
+    EXPECT_LT((modes.velocity - nodes.velocity).norm(), 0.03 * speed);
+    EXPECT_LT((modes.angular - nodes.angular).norm(), 0.01 * nodes.angular.norm());
+    EXPECT_NEAR(modes.energy, nodes.energy, 0.002 * nodes.energy);
 }
 
 INSTANTIATE_TEST_SUITE_P(Speeds, Fall,
-                         testing::Values(std::tuple(1, 0.5, 0.25), std::tuple(1, 2.0, 0.3),
-                                         std::tuple(2, 0.5, 0.2), std::tuple(2, 2.0, 0.2)));
+                         testing::Values(std::tuple(1, 0.5, 0.02), std::tuple(1, 2.0, 0.025),
+                                         std::tuple(2, 0.5, 0.02), std::tuple(2, 2.0, 0.06)));
 
-// Blows are explicit, and the ring after them is in modes.
-TEST(Fall, OfTheAutomaticTierIsTheExplicitOne) {
-    constexpr double kTime = 0.03;
-    const Fallen modes = fall(TierChoice::modes, 1, 0.5, 0.001);
-    const Fallen either = fall(TierChoice::automatic, 1, 0.5, kTime, modes.basis);
-    const Fallen nodes = fall(TierChoice::explicit_space, 1, 0.5, kTime, modes.basis);
+// A gentle blow is taken in modes; one that bends the bowl much, and its ring, node by node.
+class AutomaticFall : public testing::TestWithParam<double> {};
+
+TEST_P(AutomaticFall, KeepsTheToleranceOfTheExplicitOne) {
+    const double speed = GetParam();
+    constexpr double kTime = 0.03, kBending = 10;
+    const Fallen modes = fall(TierChoice::modes, 1, speed, 0.001);
+    const Fallen either = fall(TierChoice::automatic, 1, speed, kTime, modes.basis);
+    const Fallen nodes = fall(TierChoice::explicit_space, 1, speed, kTime, modes.basis);
     const double error = audible_error(either.rate, nodes.rate);
-    std::printf("waveform error %.2f %%, %d changes of tier\n", 100 * error, either.changes);
-    EXPECT_GE(either.changes, 1);
+    std::printf("%g m/s: waveform error %.2f %%, %d changes of tier\n", speed, 100 * error,
+                either.changes);
+    EXPECT_EQ(either.changes == 0, speed > kBending);
     EXPECT_LT(error, 0.025);
-    EXPECT_LT((either.velocity - nodes.velocity).norm(), 1e-3 * 0.5);
+    EXPECT_LT((either.velocity - nodes.velocity).norm(), 0.025 * speed);
 }
+INSTANTIATE_TEST_SUITE_P(Speeds, AutomaticFall, testing::Values(0.5, 2.0, 15.0));
 
 // Nothing near: a step is one substep, and no element is evaluated. Before the floor comes near,
 // looks from ever closer tell that nothing can touch yet.

@@ -100,6 +100,7 @@ inline AlignedVector<double> audible(const Body& body,
     ModalMotion seen(basis);
     seen.take(body.state(), {});
     AlignedVector<double> swing = seen.state().amplitude;
+    swing.resize(basis->audible);
     for (std::size_t k = 0; k < swing.size(); ++k)
         swing[k] *= basis->omega[k];
     return swing;

@@ -1,0 +1,107 @@
+#include "reduced/contact_view.h"
+
+#include "reduced/mode_rows.h"
+
+#include <algorithm>
+
+namespace ode::soft {
+
+ContactView::ContactView(ModalMotion& motion, NodeState& nodes)
+    : motion_(motion), nodes_(nodes), placed_(motion.basis().nodes(), 0),
+      at_(motion.basis().nodes()), free_(motion.basis().nodes()),
+      yield_(motion.basis().columns, 0.0f), gain_(motion.basis().columns, 0.0f) {
+    for (AlignedVector<float>& q : scratch_)
+        q.assign(motion.basis().columns, 0.0f);
+}
+
+void ContactView::begin(std::span<const int> near, double dt) noexcept {
+    const ModalBasis& b = motion_.basis();
+    const double before = dt_;
+    const bool moved = pushed_;
+    dt_ = dt;
+    const ModalState& now = motion_.state();
+    const ModalState& ahead = motion_.foresee(dt);
+    turn_ = now.turn.toRotationMatrix();
+    const Mat3 turn = ahead.turn.toRotationMatrix();
+    const Vec3 spin = motion_.spin();
+    const Spread place(b, motion_.awake(now.amplitude), scratch_[0]),
+        rate(b, motion_.awake(now.rate), scratch_[1]);
+    const Spread later(b, motion_.awake(ahead.amplitude), scratch_[2]);
+    for (const int node : near) {
+        const auto n = static_cast<std::size_t>(node);
+        const bool known = placed_[n] + 1 == substep_;
+        const Vec3 last = at_[n];
+        if (known && !moved)
+            at_[n] = free_[n];
+        else
+            at_[n] = now.center + turn_ * (b.rest[n] + place.at(n));
+        const Vec3 x = at_[n];
+        if (known)
+            nodes_.velocity[n] = (x - last) / before;
+        else if (placed_[n] != substep_)
+            nodes_.velocity[n] = now.velocity + spin.cross(x - now.center) + turn_ * rate.at(n);
+        nodes_.position[n] = x;
+        free_[n] = ahead.center + turn * (b.rest[n] + later.at(n));
+        placed_[n] = substep_;
+    }
+    pushed_ = false;
+    impulse_.setZero();
+    turning_.setZero();
+    rigid_gain_.setZero();
+    spin_gain_.setZero();
+    if (moved)
+        std::fill(gain_.begin(), gain_.end(), 0.0f);
+    if (yield_dt_ == dt)
+        return;
+    const std::span<const double> drift = motion_.drift(dt);
+    for (std::size_t k = 0; k < b.columns; ++k)
+        yield_[k] = static_cast<float>(drift[k]);
+    yield_dt_ = dt;
+}
+
+Vec3 ContactView::ahead(const CarriedPoint& point) const noexcept {
+    const Spread gain(motion_.basis(), gain_);
+    Vec3 out = Vec3::Zero(), local = Vec3::Zero(), at = Vec3::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double w = point.weight[static_cast<int>(i)];
+        if (w == 0)
+            continue;
+        const auto n = static_cast<std::size_t>(point.node[i]);
+        out += w / dt_ * (free_[n] - at_[n]);
+        if (!pushed_)
+            continue;
+        local += w * gain.at(n);
+        at += w * at_[n];
+    }
+    if (pushed_)
+        out += rigid_gain_ + spin_gain_.cross(at - motion_.state().center) + turn_ * local;
+    return out;
+}
+
+double ContactView::compliance(const CarriedPoint& point, const Vec3& direction) const noexcept {
+    const ModalBasis& b = motion_.basis();
+    const double modal = square(b, point, turn_.transpose() * direction, yield_) / dt_;
+    if (b.held)
+        return modal;
+    Vec3 at = Vec3::Zero();
+    for (std::size_t i = 0; i < 3; ++i)
+        if (const double w = point.weight[static_cast<int>(i)]; w != 0)
+            at += w * at_[static_cast<std::size_t>(point.node[i])];
+    const Vec3 arm = (at - motion_.state().center).cross(direction);
+    return modal + 1 / b.total_mass + arm.dot(motion_.spin_of(arm));
+}
+
+void ContactView::push(std::size_t node, const Vec3& force) noexcept {
+    pushed_ = true;
+    const ModalBasis& b = motion_.basis();
+    // The mean rate over dt of a push of f dt is drift / dt times f dt.
+    project(b, node, turn_.transpose() * force, yield_, gain_);
+    if (b.held)
+        return;
+    impulse_ += dt_ * force;
+    turning_ += dt_ * (at_[node] - motion_.state().center).cross(force);
+    rigid_gain_ = impulse_ / b.total_mass;
+    spin_gain_ = motion_.spin_of(turning_);
+}
+
+} // namespace ode::soft

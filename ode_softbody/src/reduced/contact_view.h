@@ -1,0 +1,46 @@
+#pragma once
+
+#include "couple/joint_inertia.h"
+#include "reduced/modal_motion.h"
+
+#include <span>
+#include <vector>
+
+namespace ode::soft {
+
+/// A body in its modes, as contact sees it through a substep: some nodes' places, their mean
+/// velocities over the substep past (what leapfrog's velocity is) and, foreseen, over the one to
+/// come, which every push changes at all nodes at once.
+class ContactView final : public JointInertia {
+public:
+    /// @param nodes  of the body; borrowed for life, like `motion`.
+    ContactView(ModalMotion& motion, NodeState& nodes);
+
+    /// Begins a substep: writes places [m] and velocities [m/s] of `near` nodes.
+    void begin(std::span<const int> near, double dt) noexcept;
+    /// The motion has advanced. @param pushed  by what this view was told of.
+    void end() noexcept { ++substep_; }
+
+    Vec3 ahead(const CarriedPoint& point) const noexcept override;
+    double compliance(const CarriedPoint& point, const Vec3& direction) const noexcept override;
+    void push(std::size_t node, const Vec3& force) noexcept override;
+
+private:
+    ModalMotion& motion_;
+    NodeState& nodes_;
+    double dt_ = 0;                     ///< of this substep [s]
+    unsigned long substep_ = 1;         ///< since the beginning
+    std::vector<unsigned long> placed_; ///< substep in which each node was last
+    NodeArray at_;                      ///< there [m]
+    NodeArray free_;                    ///< after the substep, if nothing pushes [m]
+    bool pushed_ = false;               ///< in this substep, or, before begin(), in the last
+    Mat3 turn_ = Mat3::Identity();
+    Vec3 impulse_ = Vec3::Zero(), turning_ = Vec3::Zero(); ///< of all pushes, per second [N], [N m]
+    Vec3 rigid_gain_ = Vec3::Zero(), spin_gain_ = Vec3::Zero(); ///< by them [m/s], [rad/s]
+    AlignedVector<float> yield_; ///< mean rate over the substep for 1 N, mode by mode
+    double yield_dt_ = 0;
+    AlignedVector<float> gain_; ///< mean rates that pushes have given
+    std::array<AlignedVector<float>, 3> scratch_;
+};
+
+} // namespace ode::soft
