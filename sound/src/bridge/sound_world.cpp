@@ -1,6 +1,6 @@
 #include "bridge/sound_world.h"
 
-#include "transfer/transfer_table.h"
+#include "source/node_rule.h"
 
 #include <ode/error.h>
 
@@ -18,7 +18,9 @@ static_assert(std::is_same_v<dReal, double>,
 
 /// Whether there is a table of how modes sound by this rule; else their nodes are listened to.
 bool hears_modes(const Settings& settings) noexcept {
-    return settings.sampling == Sampling::kSinc && settings.radiation == Radiation::kTransfer;
+    return settings.sampling == Sampling::kSinc && (settings.radiation == Radiation::kMonopole ||
+                                                    settings.radiation == Radiation::kKirchhoff ||
+                                                    settings.radiation == Radiation::kTransfer);
 }
 
 Alarm::Fare fare_of(const void* body) {
@@ -153,11 +155,18 @@ std::shared_ptr<const ModalVoiceModel> SoundWorld::voice_model(dSoftBodyID body)
                 surface.shape.push_back(
                     static_cast<double>(basis.shape[(3 * n + axis) * basis.stride + k]));
     }
-    const Air& air = scene_.settings().air;
-    TransferOptions options;
-    options.density = air.density;
-    options.speed = air.speed;
-    model.table = make_transfer_table(surface, options);
+    const Settings& settings = scene_.settings();
+    const Air& air = settings.air;
+    const Leaning leaning = radiation_leaning(settings.radiation);
+    if (settings.radiation == Radiation::kTransfer) {
+        TransferOptions options;
+        options.density = air.density;
+        options.speed = air.speed;
+        model.table = make_transfer_table(surface, options);
+    } else {
+        model.table = node_table(surface, leaning, air, settings.send_rate());
+    }
+    model.rigid = rigid_sound(surface.mesh, Vec3::Zero(), air);
     auto made = std::make_shared<const ModalVoiceModel>(std::move(model));
     place = made;
     return made;
@@ -168,8 +177,8 @@ void SoundWorld::on_modal(const dSoftModalState& state) noexcept {
         return;
     try {
         const auto modes = static_cast<std::size_t>(state.mode_count);
-        ModalView view{state.time,          state.dt,           {state.amplitude, modes},
-                       {state.rate, modes}, Vec3(state.center), {}};
+        ModalView view{state.time,         state.dt, {state.amplitude, modes}, {state.rate, modes},
+                       Vec3(state.center), {},       Vec3(state.velocity),     Vec3(state.spin)};
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
                 view.rotation(i, j) = state.rotation[4 * i + j];

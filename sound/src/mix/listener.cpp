@@ -132,7 +132,8 @@ void Listener::send(const ModalBlock& block) {
     if (!ear_[0].path || !ear_[0].wave || block.gain == 0.0)
         return;
     Voice& voice = find_voice(block);
-    // One point, four of them for the kernel's sake.
+    // Modes sound from the table's centre, the body's motion as a whole from the near side of the
+    // sphere that it is likened to; four points for the kernel's sake.
     constexpr int kPoints = 4;
     alignas(64) double position[4 * kPoints] = {}, area[4 * kPoints] = {};
     alignas(64) double softening[kPoints], flow[kPoints] = {};
@@ -141,12 +142,24 @@ void Listener::send(const ModalBlock& block) {
     for (int i = 0; i < kPoints; ++i) {
         for (int k = 0; k < 3; ++k)
             position[4 * i + k] = centre[k];
-        softening[i] = least * least;
     }
     const double per_gain = 1.0 / radiation_gain(settings_->radiation, settings_->air);
     for (int e = 0; e < kEars; ++e) {
         const EarPath::State& state = ear_[static_cast<std::size_t>(e)].path->at(block.sample);
         const Vec3 place = state.ghost_share > 0.5 ? state.ghost : state.position;
+        // No nearer than the table tells: the distance that is used is the root of the sum.
+        std::fill_n(softening, kPoints,
+                    std::max(1e-12, least * least - (place - centre).squaredNorm()));
+        if (block.rigid) {
+            const Vec3 way = place - block.center;
+            const double distance = std::max(way.norm(), least);
+            const Vec3 towards = way.stableNormalized();
+            for (int k = 0; k < 3; ++k)
+                position[4 + k] = block.center[k] + block.rigid->radius * towards[k];
+            flow[1] = per_gain * (distance - block.rigid->radius) *
+                      block.rigid->flow(block.rotation.transpose() * towards, distance,
+                                        block.velocity, block.slope);
+        }
         flow[0] = per_gain * voice.gains[static_cast<std::size_t>(e)].flow(block, place);
         const FlowBlock one{block.sample, kPoints, position, area,         softening, flow,
                             nullptr,      nullptr, nullptr,  block.source, block.gain};

@@ -1,6 +1,7 @@
 #include "mix/voice_gains.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ode::sound {
 
@@ -10,12 +11,27 @@ VoiceGains::VoiceGains(const TransferTable& table)
       acceleration_step_(table.mode.size()), scratch_(table.scratch_size()) {}
 
 void VoiceGains::look(const ModalBlock& block, const Vec3& ear) noexcept {
+    const Vec3 place = block.rotation.transpose() * (ear - block.center);
+    const bool anew = !known_ || block.sample - looked_ > 2 * kInterval;
+    looked_ = block.sample;
+    // The finest pattern has scratch_.size() lobes on the sphere: none has moved by a fiftieth.
+    constexpr double kSame = 0.02;
+    const double lobe = place.norm() / std::sqrt(static_cast<double>(scratch_.size()));
+    if (known_ && (place - place_).norm() < kSame * lobe) {
+        std::fill(velocity_step_.begin(), velocity_step_.end(), 0.0f);
+        std::fill(acceleration_step_.begin(), acceleration_step_.end(), 0.0f);
+        for (std::size_t k = 0; k < next_.size(); ++k) {
+            velocity_[k] = next_[k].velocity;
+            acceleration_[k] = next_[k].acceleration;
+        }
+        return;
+    }
     now_.swap(next_);
-    block.table->gains(block.rotation.transpose() * (ear - block.center), next_, scratch_);
-    if (!known_ || block.sample - looked_ > 2 * kInterval)
+    block.table->gains(place, next_, scratch_);
+    if (anew)
         now_ = next_;
     known_ = true;
-    looked_ = block.sample;
+    place_ = place;
     for (std::size_t k = 0; k < now_.size(); ++k) {
         velocity_[k] = now_[k].velocity;
         acceleration_[k] = now_[k].acceleration;

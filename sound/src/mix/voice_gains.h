@@ -13,7 +13,7 @@ namespace ode::sound {
 class VoiceGains {
 public:
     /// Between looks at the table, a millisecond and a third at 96 kHz: a body that turns ten times
-    /// a second turns five degrees.
+    /// a second turns five degrees. One that stands still before an ear costs no look.
     static constexpr int kInterval = 128; ///< [grid samples]
 
     explicit VoiceGains(const TransferTable& table);
@@ -30,6 +30,7 @@ private:
     std::vector<float> velocity_, acceleration_, velocity_step_, acceleration_step_;
     std::vector<double> scratch_;
     std::int64_t looked_ = 0;
+    Vec3 place_ = Vec3::Zero(); ///< of the ear in the frame, at the last real look [m]
     bool known_ = false;
 };
 

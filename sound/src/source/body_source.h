@@ -1,6 +1,7 @@
 #pragma once
 
 #include "source/patches.h"
+#include "source/rigid_sound.h"
 #include "source/surface.h"
 
 #include <Eigen/Core>
@@ -49,7 +50,10 @@ struct ModalBlock {
     const TransferTable* table; ///< how they sound, in the frame
     const void* voice;          ///< tells voices apart
     double gain;
-    const void* source = nullptr; ///< of the body's surface, by which it is known to be hidden
+    const void* source = nullptr;      ///< of the body's surface, by which it is known to be hidden
+    const RigidSound* rigid = nullptr; ///< null: the body as a whole is silent
+    RigidSound::Six velocity = RigidSound::Six::Zero(); ///< of the body, in its frame
+    RigidSound::Six slope = RigidSound::Six::Zero();    ///< its derivative
 };
 
 /// Takes what sources give off, in order of time for each source.

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <numbers>
 #include <numeric>
 #include <vector>
 
@@ -31,6 +32,21 @@ Lean::HighPass::HighPass(double time, double rate) noexcept {
     const double twice = 2.0 * time * rate;
     keep = (twice - 1.0) / (twice + 1.0);
     pass = twice / (twice + 1.0);
+}
+
+std::complex<double> Lean::HighPass::response(double angle) const noexcept {
+    const std::complex<double> back = std::polar(1.0, -angle);
+    return pass * (1.0 - back) / (1.0 - keep * back);
+}
+
+Lean::Response Lean::response(double frequency, double rate) const noexcept {
+    if (!leans_)
+        return {0.0, 0.0};
+    if (!filters_)
+        return {1.0, 0.0};
+    const double angle = 2.0 * std::numbers::pi * frequency / rate;
+    const std::complex<double> own = shake_.response(angle);
+    return {own, pulse_.response(angle) - own};
 }
 
 Lean::Lean(Leaning leaning, const Surface& surface, const double* point, const double* area,
@@ -72,7 +88,8 @@ void Lean::aim_at_air(const Surface& surface, const double* point, const double*
     along_area_ = carried_->along_area;
     along_way_ = carried_->along_way;
     share_ = carried_->share;
-    shake_ = HighPass(carried_->shake_length / speed, rate);
+    shake_time_ = carried_->shake_length / speed;
+    shake_ = HighPass(shake_time_, rate);
     pulse_ = HighPass(carried_->pulse_length / speed, rate);
     leans_ = filters_ = true;
 }

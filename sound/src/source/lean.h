@@ -4,6 +4,7 @@
 #include "source/surface.h"
 #include "transfer/boundary.h"
 
+#include <complex>
 #include <memory>
 
 namespace ode::sound {
@@ -37,6 +38,16 @@ public:
     /// filters.
     void follow(const double* flow) noexcept;
 
+    /// What follow() makes of a steady tone: own times a node's flow and common times its share of
+    /// all flow.
+    struct Response {
+        std::complex<double> own, common;
+    };
+    Response response(double frequency, double rate) const noexcept;
+    double share(int node) const noexcept { return share_[static_cast<std::size_t>(node)]; }
+    /// Of the high-pass that shaking goes through; 0: none [s].
+    double time() const noexcept { return shake_time_; }
+
     const double* direction() const noexcept { return direction_.data(); } ///< points [-]
     const double* flow() const noexcept { return heard_; }                 ///< [m^3/s]
 
@@ -45,6 +56,8 @@ private:
         double keep = 0.0, pass = 0.0;
         HighPass() = default;
         HighPass(double time, double rate) noexcept;
+        std::complex<double>
+        response(double angle) const noexcept; ///< @param angle  a sample [rad]
     };
 
     void aim_normals(const double* area);
@@ -70,6 +83,7 @@ private:
     AlignedVector before_, after_, sum_;
     std::shared_ptr<const Carried> carried_; ///< keeps it for the next body of this shape
     HighPass shake_, pulse_;
+    double shake_time_ = 0.0;
     double pulse_before_ = 0.0, pulse_after_ = 0.0, pulse_shaken_ = 0.0;
     const double* heard_ = nullptr;
 };

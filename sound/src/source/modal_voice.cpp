@@ -6,10 +6,20 @@
 #include <utility>
 
 namespace ode::sound {
+namespace {
+
+RigidSound::Six velocity_in_frame(const ModalView& view) {
+    RigidSound::Six out;
+    out << view.rotation.transpose() * view.velocity, view.rotation.transpose() * view.spin;
+    return out;
+}
+
+} // namespace
 
 ModalVoice::ModalVoice(std::shared_ptr<const ModalVoiceModel> model, double rate)
     : model_(std::move(model)), rate_(rate), resonators_(model_->omega, model_->decay, rate),
-      undamped_(model_->omega, std::vector<double>(model_->omega.size(), 0.0), rate) {
+      undamped_(model_->omega, std::vector<double>(model_->omega.size(), 0.0), rate),
+      way_(model_->rigid.radius / model_->rigid.speed, rate) {
     const std::size_t n = model_->omega.size();
     for (AlignedVector* own :
          {&amplitude_, &rate_of_, &break_amplitude_, &break_rate_, &ring_amplitude_, &ring_rate_,
@@ -35,8 +45,14 @@ void ModalVoice::emit(std::int64_t sample, const double* amplitude, const double
         sent_amplitude_[k] = static_cast<float>(amplitude[k] + shift * break_amplitude_[k]);
         sent_rate_[k] = static_cast<float>(rate[k] + shift * break_rate_[k]);
     }
-    out.on_modes(
-        {sample, center_, rotation_, sent_amplitude_, sent_rate_, &model_->table, this, 1.0});
+    double heard = 1.0; // of the motion as a whole
+    if (entering_)
+        heard -= fade;
+    else if (state_ == State::kFading)
+        heard = fade;
+    way_.listen(heard);
+    out.on_modes({sample, center_, rotation_, sent_amplitude_, sent_rate_, &model_->table, this,
+                  1.0, nullptr, &model_->rigid, way_.velocity(), way_.slope()});
 }
 
 void ModalVoice::start(const ModalView& view) {
@@ -49,6 +65,7 @@ void ModalVoice::start(const ModalView& view) {
     state_ = State::kRinging;
     seen_ = view.time;
     before_ = view.center;
+    way_.start(view.time, velocity_in_frame(view));
 }
 
 void ModalVoice::push(const ModalView& view, BlockSink& out) {
@@ -61,6 +78,7 @@ void ModalVoice::push(const ModalView& view, BlockSink& out) {
     const auto first = static_cast<std::int64_t>(std::floor(seen_ * rate_)) + 1;
     const auto last = static_cast<std::int64_t>(std::floor(view.time * rate_));
     rotation_ = view.rotation;
+    way_.go_on(view.time, velocity_in_frame(view));
     if (first <= last) {
         const double lead = static_cast<double>(first) / rate_ - seen_;
         const double span = view.time - seen_;
@@ -83,6 +101,7 @@ void ModalVoice::push(const ModalView& view, BlockSink& out) {
                 held_rate_[k] = ring_rate_[k] + share * miss_rate_[k];
             }
             center_ = before_ + share * (view.center - before_);
+            way_.step_to(static_cast<double>(sample) / rate_);
             emit(sample, held_amplitude_.data(), held_rate_.data(), out);
             resonators_.tick(ring_amplitude_.data(), ring_rate_.data());
             undamped_.tick(miss_amplitude_.data(), miss_rate_.data());

@@ -2,6 +2,8 @@
 
 #include "source/body_source.h"
 #include "source/resonators.h"
+#include "source/rigid_sound.h"
+#include "source/rigid_way.h"
 #include "transfer/transfer_table.h"
 
 #include <memory>
@@ -14,8 +16,10 @@ struct ModalView {
     double time; ///< [s]
     double dt;   ///< [s]
     std::span<const double> amplitude, rate;
-    Vec3 center;              ///< of the body's frame [m]
-    Eigen::Matrix3d rotation; ///< from the frame to the world
+    Vec3 center;                  ///< of the body's frame [m]
+    Eigen::Matrix3d rotation;     ///< from the frame to the world
+    Vec3 velocity = Vec3::Zero(); ///< of the centre, world [m/s]
+    Vec3 spin = Vec3::Zero();     ///< world [rad/s]
 };
 
 /// What bodies that share their modes share of their sound.
@@ -23,6 +27,7 @@ struct ModalVoiceModel {
     std::vector<double> omega; ///< [rad/s]
     std::vector<double> decay; ///< [1/s]
     TransferTable table;       ///< in the body's frame
+    RigidSound rigid;
 };
 
 /// The sound of a body that moves in its modes: amplitudes at the samples of the grid, which the
@@ -64,6 +69,7 @@ private:
     AlignedVector miss_amplitude_, miss_rate_; ///< scratch: of free ringing at the view
     AlignedVector held_amplitude_, held_rate_; ///< scratch: given off
     std::vector<float> sent_amplitude_, sent_rate_;
+    RigidWay way_;
     Vec3 center_ = Vec3::Zero();
     Vec3 before_ = Vec3::Zero();
     Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();

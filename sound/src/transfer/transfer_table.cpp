@@ -2,7 +2,7 @@
 
 #include "transfer/coarsen.h"
 #include "transfer/helmholtz.h"
-#include "transfer/multipole.h"
+#include "transfer/outgoing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,16 +12,8 @@
 namespace ode::sound {
 namespace {
 
-constexpr int kMaxOrder = 64;
 constexpr double kTau = 2.0 * std::numbers::pi;
 using Complex = std::complex<double>;
-
-/// What a listener at twice the radius and beyond can tell: waves of degree l > kr fade as
-/// (R/r)^(l+1).
-int order_for(double kr) {
-    return std::clamp(static_cast<int>(std::ceil(1.05 * kr + 2.0 * std::cbrt(kr))) + 6, 6,
-                      kMaxOrder);
-}
 
 /// The surface that is solved on, with the shapes at its nodes.
 ModalSurface fitted(const ModalSurface& given, const TransferOptions& o) {
@@ -70,62 +62,26 @@ Eigen::VectorXcd slope_of(const ModalSurface& s, std::span<const Facet> facet, s
     return q;
 }
 
-/// j_l(kr) Y_lm of a point about the centre.
-void regular_waves(const Vec3& x, double k, int order, double* out) {
-    double radial[kMaxOrder + 1];
-    const double r = x.norm();
-    spherical_bessel(k * r, order, radial);
-    harmonics(r > 0.0 ? Vec3(x / r) : Vec3::UnitZ(), order, out);
-    for (int l = 0; l <= order; ++l)
-        for (int i = l * l; i < (l + 1) * (l + 1); ++i)
-            out[i] *= radial[l];
-}
-
-/// Coefficients of h_l(kr) Y_lm outside: the addition theorem put into the surface integral,
-/// c = -ik integral of p d/dn (j_l Y) - q j_l Y.
-/// @param p  pressure at the corners of every triangle, like q.
-std::vector<Complex> moments(std::span<const Facet> facet, const Vec3& centre, double radius,
-                             double k, int order, const Eigen::VectorXcd& p,
-                             const Eigen::VectorXcd& q) {
-    const auto n = static_cast<std::size_t>(harmonic_count(order));
-    std::vector<Complex> sum(n);
-    std::vector<double> at(n), ahead(n), behind(n);
-    const double step = 1e-4 * std::min(radius, 1.0 / k); // error of the difference: 1e-8
-    for (std::size_t t = 0; t < facet.size(); ++t) {
-        const Facet& f = facet[t];
-        // A quarter of a wavelength between points at most.
-        const int cuts = std::max(1, static_cast<int>(std::ceil(k * f.size() / kTau * 2.0)));
-        for (int a = 0; a < cuts; ++a)
-            for (int b = 0; b < cuts; ++b)
-                for (const Vec3& bary : three_points()) {
-                    // Sub-triangles upright (a + b < cuts), and turned over.
-                    const bool upright = a + b < cuts;
-                    const double u = upright ? a + bary[1] : cuts - a - bary[1];
-                    const double v = upright ? b + bary[2] : cuts - b - bary[2];
-                    const Vec3 place(1.0 - (u + v) / cuts, u / cuts, v / cuts);
-                    const Vec3 x = f.at(place) - centre;
-                    const double w = f.area / (3.0 * cuts * cuts);
-                    const auto c = static_cast<Eigen::Index>(3 * t);
-                    Complex pressure = 0.0, slope = 0.0;
-                    for (int j = 0; j < 3; ++j) {
-                        pressure += place[j] * p[c + j];
-                        slope += place[j] * q[c + j];
-                    }
-                    regular_waves(x, k, order, at.data());
-                    regular_waves(x + step * f.normal, k, order, ahead.data());
-                    regular_waves(x - step * f.normal, k, order, behind.data());
-                    for (std::size_t i = 0; i < n; ++i)
-                        sum[i] += w * (pressure * ((ahead[i] - behind[i]) / (2.0 * step)) -
-                                       slope * at[i]);
-                }
-    }
-    std::vector<Complex> outgoing(static_cast<std::size_t>(order) + 1);
-    spherical_hankel(k * radius, order, outgoing.data());
-    for (int l = 0; l <= order; ++l)
-        for (int i = l * l; i < (l + 1) * (l + 1); ++i)
-            sum[static_cast<std::size_t>(i)] *=
-                Complex(0.0, -k) * outgoing[static_cast<std::size_t>(l)];
-    return sum;
+/// Adds a triangle by points a quarter of a wavelength apart at most.
+/// @param p, q  pressure and its slope at the corners of every triangle, one column a wave.
+void add_facet(OutgoingSum& sum, const Facet& f, Eigen::Index first, const Vec3& centre, double k,
+               const Eigen::MatrixXcd& p, const Eigen::MatrixXcd& q) {
+    const int cuts = std::max(1, static_cast<int>(std::ceil(k * f.size() / kTau * 2.0)));
+    const double w = f.area / (3.0 * cuts * cuts);
+    for (int a = 0; a < cuts; ++a)
+        for (int b = 0; b < cuts; ++b)
+            for (const Vec3& bary : three_points()) {
+                // Sub-triangles upright (a + b < cuts), and turned over.
+                const bool upright = a + b < cuts;
+                const double u = upright ? a + bary[1] : cuts - a - bary[1];
+                const double v = upright ? b + bary[2] : cuts - b - bary[2];
+                const Vec3 place(1.0 - (u + v) / cuts, u / cuts, v / cuts);
+                const Eigen::RowVectorXcd pressure = w * place.transpose() * p.middleRows<3>(first);
+                const Eigen::RowVectorXcd slope = w * place.transpose() * q.middleRows<3>(first);
+                const auto waves = static_cast<std::size_t>(p.cols());
+                sum.add(f.at(place) - centre, f.normal, {pressure.data(), waves},
+                        {slope.data(), waves});
+            }
 }
 
 void check(const ModalSurface& s) {
@@ -148,6 +104,13 @@ void check(const ModalSurface& s) {
 }
 
 } // namespace
+
+void TransferTable::add(double frequency, int order,
+                        std::span<const std::complex<double>> on_sphere) {
+    mode.push_back({frequency, order, coefficient.size()});
+    for (const Complex& a : on_sphere)
+        coefficient.emplace_back(a);
+}
 
 TransferTable make_transfer_table(const ModalSurface& given, const TransferOptions& o) {
     check(given);
@@ -181,14 +144,14 @@ TransferTable make_transfer_table(const ModalSurface& given, const TransferOptio
         } else {
             pressure = Complex(0.0, 1.0 / k) * slope; // p = rho c v = -q / (ik)
         }
-        const int order = order_for(k * table.radius);
-        for (std::size_t m = first; m < end; ++m) {
-            const auto c = static_cast<Eigen::Index>(m - first);
-            table.mode.push_back({s.frequency[m], order, table.coefficient.size()});
-            for (const Complex& a : moments(facet, table.centre, table.radius, k, order,
-                                            pressure.col(c), slope.col(c)))
-                table.coefficient.emplace_back(a);
-        }
+        const int order = OutgoingSum::order_for(k * table.radius);
+        const std::vector<OutgoingSum::Wave> waves(end - first, {k, order});
+        OutgoingSum sum(waves, table.radius);
+        for (std::size_t t = 0; t < facet.size(); ++t)
+            add_facet(sum, facet[t], static_cast<Eigen::Index>(3 * t), table.centre, k, pressure,
+                      slope);
+        for (std::size_t m = first; m < end; ++m)
+            table.add(s.frequency[m], order, sum.on_sphere(m - first));
         first = end;
     }
     return table;

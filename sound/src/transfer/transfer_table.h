@@ -36,6 +36,9 @@ struct TransferTable {
     /// Pressure on that sphere per unit modal acceleration, by harmonic; harmonic_count() a mode.
     std::vector<std::complex<float>> coefficient;
 
+    /// The next mode. @param on_sphere  its pressure by harmonic, to the degree `order`.
+    void add(double frequency, int order, std::span<const std::complex<double>> on_sphere);
+
     /// Nearer to the centre the table holds the values of its sphere: the series diverges inside.
     /// Waves that fade within a radius or so (high degrees of low modes) are left out of it.
     double near_limit() const noexcept { return radius; }
