@@ -12,6 +12,8 @@ namespace {
 // as fast as the fastest is now, free bodies may accelerate by kAcceleration.
 constexpr double kHaste = 4;
 constexpr double kAcceleration = 1000; ///< [m/s^2]
+// A blow is over when some looks have seen none.
+constexpr double kFading = 0.8;
 
 std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
@@ -34,7 +36,7 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
     double closest = nearest;                                 // of all
     double fastest2 = 0;
     candidate_.clear();
-    closing_ = 0;
+    closing_ *= kFading;
     for (std::size_t i = 0; i < nodes_.node.size(); ++i) {
         const auto x = position[index(nodes_.node[i])];
         const Vec3 slip = velocity[index(nodes_.node[i])] - motion.velocity_at(x);

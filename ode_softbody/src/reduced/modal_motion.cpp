@@ -18,6 +18,13 @@ constexpr double kTurn = 0.01; ///< [rad]
 constexpr double kWeak = 0.01;
 constexpr double kMixedAtOnce = 0.5; ///< [rad], of the gap or the coupling
 
+std::pair<double, double> cosine_and_sine(double x) noexcept {
+    constexpr double kSmall = 1e-3; // the series are as good as a double
+    if (std::fabs(x) > kSmall)
+        return {std::cos(x), std::sin(x)};
+    return {1 - x * x / 2 + x * x * x * x / 24, x - x * x * x / 6};
+}
+
 } // namespace
 
 ModalMotion::ModalMotion(std::shared_ptr<const ModalBasis> basis)
@@ -131,11 +138,12 @@ void ModalMotion::give(NodeState& nodes) const noexcept {
         nodes.velocity[n] += velocity + spin.cross(nodes.position[n] - state_.center);
 }
 
-void ModalMotion::place(std::span<const int> nodes, NodeState& out) const noexcept {
+void ModalMotion::place(std::span<const int> nodes, std::size_t columns,
+                        NodeState& out) const noexcept {
     const Mat3 turn = state_.turn.toRotationMatrix();
     const Vec3 spin = this->spin();
-    const Spread moved(*basis_, awake(state_.amplitude), single_[0]),
-        rate(*basis_, awake(state_.rate), single_[1]);
+    const Spread moved(*basis_, std::span(state_.amplitude).first(columns), single_[0]);
+    const Spread rate(*basis_, std::span(state_.rate).first(columns), single_[1]);
     for (const int node : nodes) {
         const auto n = static_cast<std::size_t>(node);
         const Vec3 arm = turn * (basis_->rest[n] + moved.at(n));
@@ -215,10 +223,14 @@ Vec3 ModalMotion::spin_of(const Vec3& momentum) const noexcept {
 }
 
 void ModalMotion::turn_by(const Vec3& spin, double dt) noexcept {
-    const double rate = spin.norm();
-    if (rate * dt == 0)
+    const Vec3 half = dt / 2 * spin;
+    const double square = half.squaredNorm();
+    if (square == 0)
         return;
-    state_.turn = Quat(Eigen::AngleAxisd(rate * dt, spin / rate)) * state_.turn;
+    // No more than kTurn: sine and cosine to the sixth power of half of it, 1e-16.
+    const double cosine = 1 - square / 2 + square * square / 24;
+    const Vec3 sine = (1 - square / 6 + square * square / 120) * half;
+    state_.turn = Quat(cosine, sine.x(), sine.y(), sine.z()) * state_.turn;
     state_.turn.normalize();
 }
 
@@ -243,9 +255,10 @@ void ModalMotion::fly(double dt) noexcept {
 void ModalMotion::stretch_by_spin(const Vec3& w) noexcept {
     const double* slope = basis_->inertia_slope.data();
     const std::size_t n = basis_->columns;
+    const std::size_t heard = basis_->audible_columns; // above, bodies hardly stretch
     const double xx = w.x() * w.x() / 2, yy = w.y() * w.y() / 2, zz = w.z() * w.z() / 2;
     const double xy = w.x() * w.y(), xz = w.x() * w.z(), yz = w.y() * w.z();
-    for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t k = 0; k < heard; ++k)
         settled_[k] += xx * slope[k] + yy * slope[n + k] + zz * slope[2 * n + k] +
                        xy * slope[3 * n + k] + xz * slope[4 * n + k] + yz * slope[5 * n + k];
 }
@@ -272,8 +285,7 @@ void ModalMotion::mix(const Vec3& spin, double dt) noexcept {
         const double wi = basis_->omega[i], wj = basis_->omega[j];
         if (!(std::fabs(strength) > kWeak * std::fabs(wi - wj)))
             continue;
-        const double c = std::cos(strength * dt);
-        const double s = std::sin(strength * dt);
+        const auto [c, s] = cosine_and_sine(strength * dt);
         double &qi = state_.amplitude[i], &qj = state_.amplitude[j];
         double &vi = state_.rate[i], &vj = state_.rate[j];
         const double a = wi * qi, b = wj * qj, u = vi, v = vj;

@@ -49,8 +49,14 @@ public:
     double take(const NodeState& nodes, std::span<const int> held) noexcept;
     /// Puts all nodes where they are, with the velocities that have this momentum exactly.
     void give(NodeState& nodes) const noexcept;
-    /// Some nodes, as contact sees them.
-    void place(std::span<const int> nodes, NodeState& out) const noexcept;
+    /// Some nodes, with the velocities that they have now.
+    void place(std::span<const int> nodes, NodeState& out) const noexcept {
+        place(nodes, awake_, out);
+    }
+    /// The same by what is heard alone: what lies above moves nodes by micrometres.
+    void place_roughly(std::span<const int> nodes, NodeState& out) const noexcept {
+        place(nodes, basis_->audible_columns, out);
+    }
 
     /// Steady loads of the time to come. @param forces  on nodes, or null [N].
     void set_load(const Vec3& gravity, const NodeArray* forces) noexcept;
@@ -84,6 +90,7 @@ public:
     double inverse_mass(std::size_t node, const Vec3& direction) const noexcept;
 
 private:
+    void place(std::span<const int> nodes, std::size_t columns, NodeState& out) const noexcept;
     void fit_frame(const NodeArray& position, std::span<const int> held) noexcept;
     void turn_by(const Vec3& spin, double dt) noexcept;
     void fly(double dt) noexcept;                    ///< the frame

@@ -41,7 +41,7 @@ constexpr double kLeastError = 1.4e-3;
 // Contact in modes: 16 substeps to the period of the highest audible tone.
 constexpr double kContactPace = 1 / (16 * kAudible);
 // What lies or rolls has no blow to resolve: sound alone asks for its substep.
-constexpr double kGentlePace = 1 / (4 * kAudible);
+constexpr double kGentlePace = 1 / (8 * kAudible);
 // Nodes are shown to observers eight times a period of the highest audible tone.
 constexpr double kWatchedPace = 1 / (8 * kAudible);
 constexpr double kGentle = 0.1; ///< [m/s]
@@ -239,7 +239,7 @@ double Body::blow_ahead(double steps) noexcept {
     if (rigid_pair_.empty())
         return 0;
     if (modes_)
-        modes_->place_surface();
+        modes_->place_surface_roughly();
     const double ahead = steps * world_.last_step();
     double fastest = 0;
     for (const RigidPair& pair : rigid_pair_) {

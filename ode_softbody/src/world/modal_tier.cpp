@@ -30,6 +30,8 @@ void ModalTier::place_all() noexcept { motion_.place(all_, nodes_); }
 
 void ModalTier::place_surface() noexcept { motion_.place(surface_.node, nodes_); }
 
+void ModalTier::place_surface_roughly() noexcept { motion_.place_roughly(surface_.node, nodes_); }
+
 void ModalTier::place_near(double dt) noexcept {
     if (near_stale_)
         view_.begin(near_, dt);

@@ -26,6 +26,7 @@ public:
     void refresh() noexcept;                       ///< all of them, with all momentum
     void place_all() noexcept; ///< as observers see them: without the last digits of momentum
     void place_surface() noexcept;
+    void place_surface_roughly() noexcept; ///< to see what is near
     /// Those that contact looks at, before a substep of dt [s], unless they are up to date.
     void place_near(double dt) noexcept;
     JointInertia& joint() noexcept { return view_; } ///< good after place_near()

@@ -122,7 +122,7 @@ void RigidExchange::look_ahead(bool first) noexcept {
         }
         if (!contact.law->is_look_due())
             return;
-        modes.place_surface();
+        modes.place_surface_roughly();
         contact.law->set_reach(kReach);
         contact.law->look(contact.body->state_.position, contact.body->state_.velocity,
                           shadow_[contact.shadow]);

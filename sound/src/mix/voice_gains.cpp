@@ -14,8 +14,8 @@ void VoiceGains::look(const ModalBlock& block, const Vec3& ear) noexcept {
     const Vec3 place = block.rotation.transpose() * (ear - block.center);
     const bool anew = !known_ || block.sample - looked_ > 2 * kInterval;
     looked_ = block.sample;
-    // The finest pattern has scratch_.size() lobes on the sphere: none has moved by a fiftieth.
-    constexpr double kSame = 0.02;
+    // The finest pattern has scratch_.size() lobes on the sphere: none has moved by a twentieth.
+    constexpr double kSame = 0.05;
     const double lobe = place.norm() / std::sqrt(static_cast<double>(scratch_.size()));
     if (known_ && (place - place_).norm() < kSame * lobe) {
         std::fill(velocity_step_.begin(), velocity_step_.end(), 0.0f);

@@ -68,6 +68,50 @@ void ModalVoice::start(const ModalView& view) {
     way_.start(view.time, velocity_in_frame(view));
 }
 
+// A push comes at the beginning of what a view tells of: from there to its end the modes rang.
+void ModalVoice::ring_back(const ModalView& view, std::int64_t sample, BlockSink& out) {
+    std::copy(view.amplitude.begin(), view.amplitude.end(), held_amplitude_.begin());
+    std::copy(view.rate.begin(), view.rate.end(), held_rate_.begin());
+    resonators_.evolve(static_cast<double>(sample) / rate_ - view.time, held_amplitude_.data(),
+                       held_rate_.data());
+    emit_at(view, sample, out);
+}
+
+void ModalVoice::ring_on(const ModalView& view, std::int64_t first, std::int64_t last,
+                         BlockSink& out) {
+    const double lead = static_cast<double>(first) / rate_ - seen_;
+    const double span = view.time - seen_;
+    ring_amplitude_ = amplitude_;
+    ring_rate_ = rate_of_;
+    resonators_.evolve(lead, ring_amplitude_.data(), ring_rate_.data());
+    // What free ringing misses (a push, modes that a spin has mixed) comes in little by little.
+    miss_amplitude_ = amplitude_;
+    miss_rate_ = rate_of_;
+    resonators_.evolve(span, miss_amplitude_.data(), miss_rate_.data());
+    for (std::size_t k = 0; k < miss_rate_.size(); ++k) {
+        miss_amplitude_[k] = view.amplitude[k] - miss_amplitude_[k];
+        miss_rate_[k] = view.rate[k] - miss_rate_[k];
+    }
+    undamped_.evolve(lead - span, miss_amplitude_.data(), miss_rate_.data());
+    for (std::int64_t sample = first; sample <= last; ++sample) {
+        const double share = (static_cast<double>(sample) / rate_ - seen_) / span;
+        for (std::size_t k = 0; k < miss_rate_.size(); ++k) {
+            held_amplitude_[k] = ring_amplitude_[k] + share * miss_amplitude_[k];
+            held_rate_[k] = ring_rate_[k] + share * miss_rate_[k];
+        }
+        emit_at(view, sample, out);
+        resonators_.tick(ring_amplitude_.data(), ring_rate_.data());
+        undamped_.tick(miss_amplitude_.data(), miss_rate_.data());
+    }
+}
+
+void ModalVoice::emit_at(const ModalView& view, std::int64_t sample, BlockSink& out) {
+    const double time = static_cast<double>(sample) / rate_;
+    center_ = before_ + (time - seen_) / (view.time - seen_) * (view.center - before_);
+    way_.step_to(time);
+    emit(sample, held_amplitude_.data(), held_rate_.data(), out);
+}
+
 void ModalVoice::push(const ModalView& view, BlockSink& out) {
     if (state_ != State::kRinging || view.time - view.dt > seen_ + 0.5 * view.dt) {
         start(view);
@@ -79,34 +123,10 @@ void ModalVoice::push(const ModalView& view, BlockSink& out) {
     const auto last = static_cast<std::int64_t>(std::floor(view.time * rate_));
     rotation_ = view.rotation;
     way_.go_on(view.time, velocity_in_frame(view));
-    if (first <= last) {
-        const double lead = static_cast<double>(first) / rate_ - seen_;
-        const double span = view.time - seen_;
-        ring_amplitude_ = amplitude_;
-        ring_rate_ = rate_of_;
-        resonators_.evolve(lead, ring_amplitude_.data(), ring_rate_.data());
-        // What free ringing misses (a push, modes that a spin has mixed) comes in little by little.
-        miss_amplitude_ = amplitude_;
-        miss_rate_ = rate_of_;
-        resonators_.evolve(span, miss_amplitude_.data(), miss_rate_.data());
-        for (std::size_t k = 0; k < miss_rate_.size(); ++k) {
-            miss_amplitude_[k] = view.amplitude[k] - miss_amplitude_[k];
-            miss_rate_[k] = view.rate[k] - miss_rate_[k];
-        }
-        undamped_.evolve(lead - span, miss_amplitude_.data(), miss_rate_.data());
-        for (std::int64_t sample = first; sample <= last; ++sample) {
-            const double share = (static_cast<double>(sample) / rate_ - seen_) / span;
-            for (std::size_t k = 0; k < miss_rate_.size(); ++k) {
-                held_amplitude_[k] = ring_amplitude_[k] + share * miss_amplitude_[k];
-                held_rate_[k] = ring_rate_[k] + share * miss_rate_[k];
-            }
-            center_ = before_ + share * (view.center - before_);
-            way_.step_to(static_cast<double>(sample) / rate_);
-            emit(sample, held_amplitude_.data(), held_rate_.data(), out);
-            resonators_.tick(ring_amplitude_.data(), ring_rate_.data());
-            undamped_.tick(miss_amplitude_.data(), miss_rate_.data());
-        }
-    }
+    if (first == last)
+        ring_back(view, first, out);
+    else if (first < last)
+        ring_on(view, first, last, out);
     std::copy(view.amplitude.begin(), view.amplitude.end(), amplitude_.begin());
     std::copy(view.rate.begin(), view.rate.end(), rate_of_.begin());
     entering_ = entering_ && view.time < fade_begin_ + kFadeTime;

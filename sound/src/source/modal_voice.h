@@ -53,6 +53,10 @@ private:
     enum class State { kSilent, kRinging, kFading };
 
     void start(const ModalView& view);
+    /// What is known between the last view and this one.
+    void ring_back(const ModalView& view, std::int64_t sample, BlockSink& out);
+    void ring_on(const ModalView& view, std::int64_t first, std::int64_t last, BlockSink& out);
+    void emit_at(const ModalView& view, std::int64_t sample, BlockSink& out);
     void emit(std::int64_t sample, const double* amplitude, const double* rate, BlockSink& out);
     double fade_at(double time) const noexcept; ///< 1 at fade_begin_, 0 after kFadeTime
 

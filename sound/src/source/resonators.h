@@ -18,12 +18,13 @@ public:
     std::size_t size() const noexcept { return omega_.size(); }
 
     /// Carries amplitudes and rates over a time, which may be negative [s].
-    void evolve(double time, double* amplitude, double* rate) const noexcept;
+    void evolve(double time, double* amplitude, double* rate) noexcept;
     /// The same over one sample.
     void tick(double* amplitude, double* rate) const noexcept;
 
 private:
     AlignedVector omega_, decay_, damped_;
+    AlignedVector angle_, cosine_, sine_; ///< scratch
     AlignedVector tick_[4]; ///< q from q, q from q', q' from q, q' from q'
 };
 

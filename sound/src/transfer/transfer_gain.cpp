@@ -10,27 +10,22 @@ namespace {
 
 constexpr double kTau = 2.0 * std::numbers::pi;
 
-/// h_l(kr) / h_l(kR) e^{ikr}, degree by degree, handed to `use(l, ratio)`.
+using Complex = std::complex<double>;
+
+/// g_l = h_l(x) e^{ix} of all degrees: no phase to lose. use(l, g_l).
 template <class Use>
-void outgoing(double kr, double at_radius, int order, Use&& use) {
-    // Reduced functions g_l = h_l e^{ix} obey the same recurrence and have no phase to lose.
-    using Complex = std::complex<double>;
+void reduced(double x, int order, Use&& use) {
     const Complex i(0.0, 1.0);
-    Complex far = i / kr, far_before = far, near = i / at_radius, near_before = near;
-    const Complex phase = std::polar(1.0, at_radius); // of the sphere: its h has e^{-ikR}
+    Complex before = i / x, now = before;
     for (int l = 0; l <= order; ++l) {
         if (l == 1) {
-            far = (i / kr - 1.0) / kr;
-            near = (i / at_radius - 1.0) / at_radius;
+            now = (i / x - 1.0) / x;
         } else if (l > 1) {
-            const Complex far_next = (2.0 * l - 1.0) / kr * far - far_before;
-            const Complex near_next = (2.0 * l - 1.0) / at_radius * near - near_before;
-            far_before = far;
-            near_before = near;
-            far = far_next;
-            near = near_next;
+            const Complex next = (2.0 * l - 1.0) / x * now - before;
+            before = now;
+            now = next;
         }
-        use(l, far / near * phase);
+        use(l, now);
     }
 }
 
@@ -38,16 +33,20 @@ std::complex<double> sum(const TransferTable& table, const TransferTable::Mode& 
                          const double* harmonic) noexcept {
     const double k = kTau * mode.frequency / table.speed;
     const std::complex<float>* a = table.coefficient.data() + mode.first;
-    std::complex<double> total = 0.0;
-    outgoing(k * r, k * table.radius, mode.order, [&](int l, std::complex<double> ratio) {
+    const Complex* per_sphere = table.per_sphere.data() + mode.first_degree;
+    double real_sum = 0.0, imag_sum = 0.0;
+    reduced(k * r, mode.order, [&](int l, Complex far) {
         double real = 0.0, imag = 0.0;
         for (int i = l * l; i < (l + 1) * (l + 1); ++i) {
             real += static_cast<double>(a[i].real()) * harmonic[i];
             imag += static_cast<double>(a[i].imag()) * harmonic[i];
         }
-        total += ratio * std::complex<double>(real, imag);
+        const double x = far.real() * per_sphere[l].real() - far.imag() * per_sphere[l].imag();
+        const double y = far.real() * per_sphere[l].imag() + far.imag() * per_sphere[l].real();
+        real_sum += x * real - y * imag;
+        imag_sum += x * imag + y * real;
     });
-    return total;
+    return {real_sum, imag_sum};
 }
 
 int highest(const TransferTable& table) noexcept {
@@ -61,6 +60,16 @@ int highest(const TransferTable& table) noexcept {
 
 std::size_t TransferTable::scratch_size() const noexcept {
     return static_cast<std::size_t>(harmonic_count(highest(*this)));
+}
+
+void TransferTable::add(double frequency, int order,
+                        std::span<const std::complex<double>> on_sphere) {
+    mode.push_back({frequency, order, coefficient.size(), per_sphere.size()});
+    for (const Complex& a : on_sphere)
+        coefficient.emplace_back(a);
+    const double x = kTau * frequency / speed * radius;
+    const Complex phase = std::polar(1.0, x); // of the sphere: its h has e^{-ikR}
+    reduced(x, order, [&](int, Complex near) { per_sphere.push_back(phase / near); });
 }
 
 void TransferTable::gains(const Vec3& place, std::span<ModeGain> out,

@@ -105,13 +105,6 @@ void check(const ModalSurface& s) {
 
 } // namespace
 
-void TransferTable::add(double frequency, int order,
-                        std::span<const std::complex<double>> on_sphere) {
-    mode.push_back({frequency, order, coefficient.size()});
-    for (const Complex& a : on_sphere)
-        coefficient.emplace_back(a);
-}
-
 TransferTable make_transfer_table(const ModalSurface& given, const TransferOptions& o) {
     check(given);
     const ModalSurface s = fitted(given, o);

@@ -21,9 +21,10 @@ struct ModeGain {
 /// outgoing spherical waves about its centre, in the body's frame. Plain data.
 struct TransferTable {
     struct Mode {
-        double frequency;  ///< [Hz]
-        int order;         ///< highest degree of its harmonics
-        std::size_t first; ///< its (order + 1)^2 coefficients
+        double frequency;         ///< [Hz]
+        int order;                ///< highest degree of its harmonics
+        std::size_t first;        ///< its (order + 1)^2 coefficients
+        std::size_t first_degree; ///< its order + 1 entries of per_sphere
     };
 
     Vec3 centre = Vec3::Zero(); ///< [m]
@@ -35,8 +36,10 @@ struct TransferTable {
     std::vector<Mode> mode;
     /// Pressure on that sphere per unit modal acceleration, by harmonic; harmonic_count() a mode.
     std::vector<std::complex<float>> coefficient;
+    std::vector<std::complex<double>> per_sphere; ///< e^{ikR} / (h_l(kR) e^{ikR}), by degree
 
-    /// The next mode. @param on_sphere  its pressure by harmonic, to the degree `order`.
+    /// The next mode, radius and speed being set. @param on_sphere  its pressure by harmonic, to
+    /// the degree `order`.
     void add(double frequency, int order, std::span<const std::complex<double>> on_sphere);
 
     /// Nearer to the centre the table holds the values of its sphere: the series diverges inside.
