@@ -110,6 +110,56 @@ TEST(SoundWorld, FourSinksOfOneListenerReceiveTheSameSamples) {
     EXPECT_EQ(read.sample, kept);
 }
 
+// A microphone beside two ears that are no distance apart hears what each of them hears, and writes
+// it in three forms at once.
+TEST(SoundWorld, OneEarHearsWhatTwoInOnePlaceHear) {
+    const sound::test::Scratch scratch;
+    Strike app;
+    sound::WorldHandle world(dSoundWorldCreate(app.soft));
+    dSoundListenerID ears = dSoundListenerCreate(world);
+    dSoundListenerID microphone = dSoundListenerCreate(world);
+    EXPECT_EQ(dSoundListenerSetEars(microphone, 3), 0);
+    ASSERT_EQ(dSoundListenerSetEars(microphone, 1), 1);
+    for (dSoundListenerID listener : {ears, microphone}) {
+        dSoundListenerSetPosition(listener, 0.1, -1, 0);
+        dSoundListenerSetEarDistance(listener, listener == ears ? 0 : 0.4);
+    }
+    sound::SinkHandle two(dSoundSinkCreateMemory()), one(dSoundSinkCreateMemory());
+    dSoundFile small = dSoundFileDefault();
+    small.bits = 16;
+    sound::SinkHandle wav(dSoundSinkCreateFileAs(scratch.file("one.wav").c_str(), &small));
+    sound::SinkHandle flac(dSoundSinkCreateFile(scratch.file("one.flac").c_str()));
+    dSoundListenerAddSink(ears, two);
+    for (dSoundSinkID sink : {one.get(), wav.get(), flac.get()})
+        ASSERT_EQ(dSoundListenerAddSink(microphone, sink), 1);
+    EXPECT_EQ(dSoundListenerSetEars(microphone, 2), 0) << "sinks have been told";
+    app.run(0.05);
+    dSoundLevel level{};
+    level.struct_size = sizeof level;
+    dSoundListenerGetLevel(microphone, &level);
+    EXPECT_GT(level.peak[0], 0);
+    EXPECT_EQ(level.peak[1], 0);
+    world.reset();
+    const std::vector<float> stereo = samples_of(two), mono = samples_of(one);
+    ASSERT_EQ(stereo.size(), 2 * mono.size());
+    EXPECT_TRUE(sounds(mono));
+    for (std::size_t i = 0; i < mono.size(); ++i) {
+        ASSERT_EQ(stereo[2 * i], mono[i]) << i;
+        ASSERT_EQ(stereo[2 * i + 1], mono[i]) << i;
+    }
+    const struct {
+        const char* name;
+        double step; // of a sample
+    } forms[] = {{"one.wav", 1.0 / 32768}, {"one.flac", 1.0 / 8388608}};
+    for (const auto& form : forms) {
+        const sound::test::ReadSound read(scratch.file(form.name));
+        EXPECT_EQ(read.info.channels, 1);
+        ASSERT_EQ(read.sample.size(), mono.size());
+        for (std::size_t i = 0; i < mono.size(); ++i) // dithered by up to one step
+            ASSERT_NEAR(read.sample[i], mono[i], 2 * form.step) << form.name;
+    }
+}
+
 TEST(SoundWorld, TwoRunsGiveTheSameBits) {
     const std::vector<float> once = record(0.05);
     EXPECT_TRUE(sounds(once));

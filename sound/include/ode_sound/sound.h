@@ -122,10 +122,14 @@ DSOUND_API int dSoundListenerSetOrientation(dSoundListenerID listener, const dVe
 /** Distance between the ears [m], >= 0; 0 makes both hear the same. */
 DSOUND_API int dSoundListenerSetEarDistance(dSoundListenerID listener, dReal distance);
 
+/** One ear, in the middle (a microphone, mono), or two (default). Before its first sink, which gets
+ * as many channels. @return 0 for other numbers, or when there are sinks. */
+DSOUND_API int dSoundListenerSetEars(dSoundListenerID listener, int ears);
+
 /** What a listener hears, since the last look. Start with struct_size = sizeof(dSoundLevel). */
 typedef struct dSoundLevel {
     unsigned struct_size;
-    dReal peak[2];    /**< of the left and right ear, before the limiter [Pa] */
+    dReal peak[2];    /**< of the left (or only) and right ear, before the limiter [Pa] */
     dReal rms[2];     /**< [Pa] */
     dReal least_gain; /**< by which the limiter held sound down [-]; 1: not at all */
 } dSoundLevel;
@@ -176,6 +180,12 @@ DSOUND_API int dSoundSinkMark(dSoundSinkID sink, const char* text);
  * simulation slower than real time is heard with faded gaps (dSoundStats.underruns). A device that
  * is lost is waited for. No device at first: a message, and a null sink instead. */
 DSOUND_API dSoundSinkID dSoundSinkCreateOpenAL(void);
+/** The same in the OpenAL context that is current where this is called: the application's own, with
+ * its device, rate and master gain. One more source is added to it; its current context, its
+ * distance model and its error flag are left as they are (a thread of ours uses it through
+ * alcSetThreadContext). Destroy the sink before the context. A device that is lost is not waited
+ * for. @return NULL without a current context, after a message. */
+DSOUND_API dSoundSinkID dSoundSinkCreateOpenALCurrent(void);
 /** Plays out and closes. A listener that still has it lets it go. */
 DSOUND_API void dSoundSinkDestroy(dSoundSinkID sink);
 
@@ -196,6 +206,18 @@ DSOUND_API int dSoundGetDeviceRate(void);
  * slower than real time (its gaps are then faded; bodies in their modes are what makes it faster).
  * @return seconds waited. */
 DSOUND_API dReal dSoundSinkPace(dSoundSinkID sink, dReal delay);
+/** dSoundSinkPace() for all live sinks of a world's listeners, and what the policy asks for. Once a
+ * step, between steps. */
+DSOUND_API dReal dSoundPace(dSoundWorldID world, dReal delay);
+/** What dSoundPace() does about a simulation slower than the loudspeaker:
+ * "stretch"       nothing: gaps are faded, sound goes on where it stopped (default); gives bodies
+ *                 the tiers back that were taken from them
+ * "drop quality"  after an underrun all bodies that sound go to tier "auto"; after another, half a
+ *                 second of the world's time later or more, to "modal" (tier.h). What is heard then
+ *                 depends on the machine's speed.
+ * @return 0 for an unknown name, after listing the known ones. */
+DSOUND_API int dSoundSetPacePolicy(dSoundWorldID world, const char* name);
+DSOUND_API const char* dSoundGetPacePolicy(dSoundWorldID world);
 /** First failure in words the user can act on; "" while healthy. */
 DSOUND_API const char* dSoundSinkGetError(dSoundSinkID sink);
 

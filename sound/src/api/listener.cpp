@@ -62,6 +62,23 @@ int dSoundListenerSetOrientation(dSoundListenerID listener, const dVector3 at, c
     return 1;
 }
 
+int dSoundListenerSetEars(dSoundListenerID listener, int ears) {
+    require_id(listener, "dSoundListenerSetEars");
+    return guarded("dSoundListenerSetEars", 0, [&] {
+        if (ears != 1 && ears != 2) {
+            dMessage(0, "dSoundListenerSetEars: a listener has 1 or 2 ears, not %d", ears);
+            return 0;
+        }
+        if (listener->listener->set_ears(ears))
+            return 1;
+        dMessage(0,
+                 "dSoundListenerSetEars: the listener's sinks have %d channels already; set "
+                 "ears before the first sink",
+                 listener->listener->ears());
+        return 0;
+    });
+}
+
 int dSoundListenerSetEarDistance(dSoundListenerID listener, dReal distance) {
     require_id(listener, "dSoundListenerSetEarDistance");
     if (!std::isfinite(distance) || distance < 0.0) {

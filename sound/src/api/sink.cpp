@@ -1,5 +1,6 @@
 #include "api/sink.h"
 #include "api/guard.h"
+#include "api/ids.h"
 #include "api/left_open.h"
 #include "sink/file_sink.h"
 #include "sink/memory_sink.h"
@@ -25,6 +26,26 @@ dSoundSinkID create(const char* function, Make&& make) noexcept {
         keep(id.get());
         return id.release();
     });
+}
+
+bool is_delay(dReal delay, const char* function) {
+    if (std::isfinite(delay) && delay >= 0.0)
+        return true;
+    dMessage(0, "%s: delay is %g s; it must be 0 or more", function, delay);
+    return false;
+}
+
+/// Until no more than `delay` [s] is ahead of the loudspeaker. @return [s]
+dReal wait_for(const Sink& sink, dReal delay) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    const auto allowed = static_cast<std::size_t>(delay * sink.rate());
+    while (sink.rate() > 0 && sink.backlog() > allowed) {
+        if (Clock::now() - begin > std::chrono::seconds(1)) // a device that takes nothing
+            break;
+        std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+    return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 } // namespace
@@ -87,6 +108,23 @@ dSoundSinkID dSoundSinkCreateOpenAL(void) {
     });
 }
 
+dSoundSinkID dSoundSinkCreateOpenALCurrent(void) {
+    const char* const function = __func__;
+    return guarded(function, dSoundSinkID{}, [function] {
+        try {
+            auto id = std::make_unique<dxSoundSink>(dxSoundSink{std::make_shared<OpenAlSink>(
+                OpenAlDevice::of_application(),
+                [](const char* sentence) { dMessage(0, "%s", sentence); },
+                []() -> OpenAlDevice { throw Refused("the application's device is gone"); })});
+            keep(id.get());
+            return id.release();
+        } catch (const Refused& e) {
+            dMessage(0, "%s: %s", function, e.what());
+            return dSoundSinkID{};
+        }
+    });
+}
+
 void dSoundSinkDestroy(dSoundSinkID sink) {
     if (!sink)
         return;
@@ -136,19 +174,21 @@ int dSoundGetDeviceRate(void) {
 
 dReal dSoundSinkPace(dSoundSinkID sink, dReal delay) {
     require_id(sink, __func__);
-    if (!std::isfinite(delay) || delay < 0.0) {
-        dMessage(0, "%s: delay is %g s; it must be 0 or more", __func__, delay);
+    return is_delay(delay, __func__) ? wait_for(*sink->sink, delay) : 0;
+}
+
+dReal dSoundPace(dSoundWorldID world, dReal delay) {
+    const char* const function = __func__;
+    require_id(world, function);
+    if (!is_delay(delay, function))
         return 0;
-    }
-    using Clock = std::chrono::steady_clock;
-    const auto begin = Clock::now();
-    const auto allowed = static_cast<std::size_t>(delay * sink->sink->rate());
-    while (sink->sink->rate() > 0 && sink->sink->backlog() > allowed) {
-        if (Clock::now() - begin > std::chrono::seconds(1)) // a device that takes nothing
-            break;
-        std::this_thread::sleep_for(std::chrono::microseconds(500));
-    }
-    return std::chrono::duration<double>(Clock::now() - begin).count();
+    return guarded(function, dReal{0}, [&] {
+        dReal waited = 0;
+        for (const auto& listener : world->world.scene().all())
+            listener->for_each_sink([&](const Sink& sink) { waited += wait_for(sink, delay); });
+        world->world.keep_pace();
+        return waited;
+    });
 }
 
 unsigned long dSoundSinkGetBacklog(dSoundSinkID sink) {

@@ -150,6 +150,25 @@ int dSoundSetRate(dSoundWorldID world, int rate) {
     });
 }
 
+int dSoundSetPacePolicy(dSoundWorldID world, const char* name) {
+    require_id(world, "dSoundSetPacePolicy");
+    return guarded("dSoundSetPacePolicy", 0, [&] {
+        for (int i = 0; name && !Pace::name(i).empty(); ++i)
+            if (Pace::name(i) == name) {
+                world->world.pace().set(static_cast<Pace::Policy>(i));
+                return 1;
+            }
+        dMessage(0, "dSoundSetPacePolicy: no policy \"%s\"; there are: %s", name ? name : "(null)",
+                 join(Pace::name).c_str());
+        return 0;
+    });
+}
+
+const char* dSoundGetPacePolicy(dSoundWorldID world) {
+    require_id(world, "dSoundGetPacePolicy");
+    return Pace::name(static_cast<int>(world->world.pace().policy())).data();
+}
+
 int dSoundSetAlarm(dSoundWorldID world, dSoundAlarmCallback* callback, void* data) {
     require_id(world, "dSoundSetAlarm");
     return guarded("dSoundSetAlarm", 0, [&] {
@@ -177,10 +196,9 @@ int dSoundGetStats(dSoundWorldID world, dSoundStats* stats) {
         all.gathers = count.gathers;
         all.frames = count.frames;
         for (const auto& listener : scene.all())
-            listener->for_each_sink([&](const Sink& sink) {
-                all.underruns += sink.underruns();
-                all.latency = std::max(all.latency, sink.latency());
-            });
+            listener->for_each_sink(
+                [&](const Sink& sink) { all.latency = std::max(all.latency, sink.latency()); });
+        all.underruns = world->world.underruns();
         all.seconds = world->world.seconds();
         all.peak = count.peak;
         all.rms = count.rms;

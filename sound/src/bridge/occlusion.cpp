@@ -154,7 +154,7 @@ void Occlusion::update(Scene& scene, double duration) {
                 const bool by_nodes = !source.is_silent();
                 const Patches* patches = by_nodes ? &source.patches(centre) : nullptr;
                 const int count = patches ? patches->count : points_of_box(body, centre);
-                const auto ears = listener->pose.ears();
+                const auto ears = listener->places();
                 dReal low[3], high[3];
                 for (int k = 0; k < 3; ++k) {
                     low[k] = std::min(ears[0][k], ears[1][k]);
@@ -171,7 +171,7 @@ void Occlusion::update(Scene& scene, double duration) {
                     continue;
                 Shade& shade = listener->shade(source);
                 shade.set_patches(count);
-                for (int e = 0; e < Listener::kEars; ++e)
+                for (int e = 0; e < listener->ears(); ++e)
                     for (int p = 0; p < count; ++p) {
                         const auto& c = centre[static_cast<std::size_t>(p)];
                         const bool hidden = maybe && is_hidden(body, {c[0], c[1], c[2]},

@@ -71,6 +71,18 @@ void SoundWorld::set(const Settings& settings) {
     observe();
 }
 
+unsigned long SoundWorld::underruns() const noexcept {
+    unsigned long sum = 0;
+    for (const auto& listener : scene_.all())
+        listener->for_each_sink([&](const Sink& sink) { sum += sink.underruns(); });
+    return sum;
+}
+
+void SoundWorld::keep_pace() {
+    if (world_)
+        pace_.update(scene_, underruns(), stepped_);
+}
+
 void SoundWorld::ignore() noexcept {
     if (observing_ && world_)
         dSoftWorldRemoveObserver(world_, this);
@@ -229,6 +241,7 @@ void SoundWorld::raise(const void* key, double time, Alarm::Cause cause) {
 
 void SoundWorld::on_body_end(dSoftBodyID body) noexcept {
     alarm_.forget(body);
+    pace_.forget(body);
     scene_.end_body(body);
 }
 

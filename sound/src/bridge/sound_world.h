@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bridge/occlusion.h"
+#include "bridge/pace.h"
 #include "mix/alarm.h"
 #include "mix/cpu_clock.h"
 #include "mix/scene.h"
@@ -29,6 +30,10 @@ public:
     /// As Scene::set().
     void set(const Settings& settings);
     Occlusion& occlusion() noexcept { return occlusion_; }
+    Pace& pace() noexcept { return pace_; }
+    /// What the pace policy asks for, between steps.
+    void keep_pace();
+    unsigned long underruns() const noexcept; ///< of all sinks
     const Alarm& alarm() const noexcept { return alarm_; }
     /// @param tell  besides the message; may be empty.
     void set_alarm(std::function<void(dSoftBodyID, double)> tell) { tell_ = std::move(tell); }
@@ -66,6 +71,7 @@ private:
     std::map<const void*, std::weak_ptr<const ModalVoiceModel>> voice_model_;
     Occlusion occlusion_;
     Alarm alarm_;
+    Pace pace_;
     std::function<void(dSoftBodyID, double)> tell_;
     double stepped_ = 0.0; ///< end of the last step [s]
     SampledCost cost_;

@@ -19,6 +19,7 @@ public:
     Limiter(double rate, int channels, double ceiling);
 
     int delay() const noexcept { return static_cast<int>(lacks_.size()); } ///< [frames]
+    double ceiling() const noexcept { return ceiling_; }
     void set_ceiling(double ceiling) noexcept { ceiling_ = ceiling; }
 
     /// In place, interleaved.

@@ -21,6 +21,8 @@ void Listener::restart() {
         ear.path.reset(); // its grid may be another
         ear.wave.reset();
         ear.paper.reset();
+    }
+    for (Ear& ear : heard()) {
         if (s.sampling == Sampling::kSinc) {
             const Decimator decimator(
                 s.rate, differentiate ? Decimator::Kind::kDerivative : Decimator::Kind::kSmooth,
@@ -36,10 +38,30 @@ void Listener::restart() {
     }
 }
 
+bool Listener::set_ears(int ears) {
+    bool any = false;
+    for_each_sink([&](const Sink&) { any = true; });
+    if (any && ears != ears_)
+        return false;
+    if (ears == ears_)
+        return true;
+    ears_ = ears;
+    ear_meter_ = {};
+    voice_.clear();
+    if (limiter_)
+        limiter_.emplace(settings_->rate, ears_, limiter_->ceiling());
+    restart();
+    return true;
+}
+
+std::array<Vec3, Listener::kEars> Listener::places() const noexcept {
+    return ears_ == 1 ? std::array<Vec3, kEars>{pose.centre, pose.centre} : pose.ears();
+}
+
 void Listener::begin_step(double time, double duration) {
     const double rate = settings_->send_rate();
-    const std::array<Vec3, kEars> target = pose.ears();
-    for (std::size_t e = 0; e < kEars; ++e) {
+    const std::array<Vec3, kEars> target = places();
+    for (std::size_t e = 0; e < static_cast<std::size_t>(ears_); ++e) {
         if (!ear_[e].path)
             ear_[e].path = std::make_unique<EarPath>(rate, target[e]);
         else
@@ -53,7 +75,7 @@ void Listener::splat(const FlowBlock& block, bool ghost, int only) noexcept {
     int count = 0;
     EarLine* line[kEars];
     int which[kEars];
-    for (int e = only < 0 ? 0 : only; e < (only < 0 ? kEars : only + 1); ++e) {
+    for (int e = only < 0 ? 0 : only; e < (only < 0 ? ears_ : only + 1); ++e) {
         Ear& ear = ear_[static_cast<std::size_t>(e)];
         const EarPath::State& state = ear.path->at(block.sample);
         const double share = ghost ? state.ghost_share : 1.0 - state.ghost_share;
@@ -109,7 +131,7 @@ void Listener::send(const FlowBlock& block) noexcept {
     if (!ear_[0].path || !ear_[0].wave || block.gain == 0.0)
         return;
     splat(block, false);
-    for (Ear& ear : ear_)
+    for (Ear& ear : heard())
         if (ear.path->at(block.sample).ghost_share > 0.0) {
             splat(block, true);
             break;
@@ -144,7 +166,7 @@ void Listener::send(const ModalBlock& block) {
             position[4 * i + k] = centre[k];
     }
     const double per_gain = 1.0 / radiation_gain(settings_->radiation, settings_->air);
-    for (int e = 0; e < kEars; ++e) {
+    for (int e = 0; e < ears_; ++e) {
         const EarPath::State& state = ear_[static_cast<std::size_t>(e)].path->at(block.sample);
         const Vec3 place = state.ghost_share > 0.5 ? state.ghost : state.position;
         // No nearer than the table tells: the distance that is used is the root of the sum.
@@ -178,7 +200,7 @@ void Listener::send(const FacetBlock& block) noexcept {
     if (shade)
         shade->advance(block.sample, settings_->send_rate());
     const bool hides = shade && !shade->is_clear();
-    for (int e = 0; e < kEars; ++e) {
+    for (int e = 0; e < ears_; ++e) {
         Ear& ear = ear_[static_cast<std::size_t>(e)];
         const Vec3 r = ear.path->at(block.sample).position;
         for (int t = 0; t < block.facets; ++t) {
@@ -224,15 +246,16 @@ void Listener::render(std::int64_t frame) noexcept {
     double heard[kEars][kBlock];
     float out[kEars * kBlock];
     const double scale = 1.0 / settings_->full_scale;
+    const auto channels = static_cast<std::size_t>(ears_);
     while (next_ < frame) {
         const auto count = static_cast<int>(std::min<std::int64_t>(kBlock, frame - next_));
-        for (std::size_t e = 0; e < kEars; ++e)
+        for (std::size_t e = 0; e < static_cast<std::size_t>(ears_); ++e)
             ear_[e].line().read(count, heard[e]);
         for (int f = 0; f < count; ++f)
-            for (int e = 0; e < kEars; ++e) {
+            for (int e = 0; e < ears_; ++e) {
                 meter_.add(heard[e][f]);
                 ear_meter_[static_cast<std::size_t>(e)].add(heard[e][f]);
-                out[kEars * f + e] = static_cast<float>(scale * heard[e][f]);
+                out[ears_ * f + e] = static_cast<float>(scale * heard[e][f]);
             }
         if (limiter_)
             limiter_->run(out, count);
@@ -241,7 +264,7 @@ void Listener::render(std::int64_t frame) noexcept {
             std::size_t taken = 0;
             while (taken < wanted) {
                 const std::size_t now = sink.write(
-                    std::span<const float>(out + kEars * taken, kEars * (wanted - taken)));
+                    std::span<const float>(out + channels * taken, channels * (wanted - taken)));
                 if (now == 0)
                     break;
                 taken += now;
@@ -255,7 +278,7 @@ void Listener::render(std::int64_t frame) noexcept {
 
 std::int64_t Listener::last_frame() const noexcept {
     std::int64_t last = next_;
-    for (const Ear& ear : ear_) {
+    for (const Ear& ear : heard()) {
         const Line& line = ear.wave ? static_cast<const Line&>(*ear.wave) : *ear.paper;
         last = std::max(last, line.last_frame() + 1);
     }
@@ -268,7 +291,7 @@ void Listener::set_limiter(double ceiling) {
     else if (limiter_)
         limiter_->set_ceiling(ceiling);
     else
-        limiter_.emplace(settings_->rate, kEars, ceiling);
+        limiter_.emplace(settings_->rate, ears_, ceiling);
 }
 
 Listener::Level Listener::take_level() noexcept {
@@ -280,7 +303,7 @@ Listener::Level Listener::take_level() noexcept {
 bool Listener::add_sink(const std::shared_ptr<Sink>& sink) {
     if (has_sink(*sink))
         return true;
-    if (!sink->open({settings_->rate, kEars}))
+    if (!sink->open({settings_->rate, ears_}))
         return false;
     const bool pascals = settings_->radiation != Radiation::kPaper;
     sink->calibrate({settings_->full_scale, pascals ? "Pa" : "Pa m",

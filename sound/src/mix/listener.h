@@ -14,20 +14,28 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace ode::sound {
 
-/// Two ears, what travels to them, and the sinks that get what they hear.
+/// One or two ears, what travels to them, and the sinks that get what they hear.
 class Listener {
 public:
-    static constexpr int kEars = 2;
+    static constexpr int kEars = 2; ///< at most
 
     /// @param frame  first audio frame to be heard (time * rate).
     Listener(const Settings& settings, std::int64_t frame);
 
     /// To be changed at will; heard from the next step on.
     Pose pose;
+    /// Of the ears, by it [m]; a single one is in the middle.
+    std::array<Vec3, kEars> places() const noexcept;
+
+    int ears() const noexcept { return ears_; }
+    /// One, at the middle, or two. What is under way is lost.
+    /// @return false, and nothing changed, once there are sinks, which have been told.
+    bool set_ears(int ears);
 
     /// Takes over `pose`: ears go there from `time` [s] on within `duration` [s].
     void begin_step(double time, double duration);
@@ -103,7 +111,15 @@ private:
     };
     Shade* find_shade(const void* source) const noexcept;
 
+    std::span<Ear> heard() noexcept {
+        return std::span(ear_).first(static_cast<std::size_t>(ears_));
+    }
+    std::span<const Ear> heard() const noexcept {
+        return std::span(ear_).first(static_cast<std::size_t>(ears_));
+    }
+
     const Settings* settings_;
+    int ears_ = kEars;
     std::int64_t next_;
     std::int64_t frames_ = 0;
     std::int64_t dropped_ = 0;

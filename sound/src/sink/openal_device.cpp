@@ -27,6 +27,16 @@ OpenAlDevice OpenAlDevice::open_default() {
     return device;
 }
 
+OpenAlDevice OpenAlDevice::of_application() {
+    OpenAlDevice device;
+    device.context = alcGetCurrentContext();
+    if (!device.context)
+        throw Refused("no OpenAL context is current; make the application's own current first, or "
+                      "let dSoundSinkCreateOpenAL() have one of its own");
+    device.handle = {alcGetContextsDevice(device.context), Closer{true}};
+    return device;
+}
+
 OpenAlContext::OpenAlContext(OpenAlDevice device, int rate) : device_(std::move(device)) {
     ALCdevice* const handle = device_.handle.get();
     if (!alcIsExtensionPresent(handle, "ALC_EXT_thread_local_context"))
@@ -37,6 +47,10 @@ OpenAlContext::OpenAlContext(OpenAlDevice device, int rate) : device_(std::move(
     get_thread_context_ =
         reinterpret_cast<GetThreadContext>(alcGetProcAddress(handle, "alcGetThreadContext"));
 
+    if (is_borrowed()) {
+        context_ = device_.context;
+        return;
+    }
     // At the stream's rate nothing is resampled (OpenAL's linear resampler: THD+N -25 dB at 8 kHz).
     // The limiter would delay by 48 frames and clamp; HRTF would cost and do nothing, as channels
     // go straight to the loudspeakers.

@@ -10,7 +10,11 @@ namespace ode::sound {
 /// An open OpenAL device and how samples leave it.
 struct OpenAlDevice {
     struct Closer {
-        void operator()(ALCdevice* device) const noexcept { alcCloseDevice(device); }
+        bool borrowed; ///< not ours to close
+        void operator()(ALCdevice* device) const noexcept {
+            if (!borrowed)
+                alcCloseDevice(device);
+        }
     };
     std::unique_ptr<ALCdevice, Closer> handle;
     /// Rendered by alcRenderSamplesSOFT (float stereo) instead of by a sound card.
@@ -18,12 +22,18 @@ struct OpenAlDevice {
     /// Whether it is still there, where OpenAL can't tell; empty: ask OpenAL.
     std::function<bool()> connected;
 
+    /// The application's, to be used as it is; null: one of our own is made.
+    ALCcontext* context = nullptr;
+
+    /// What is current for the calling thread. @throws Refused when nothing is
+    static OpenAlDevice of_application();
     /// The system's default output. @throws Refused when there is none
     static OpenAlDevice open_default();
 };
 
-/// A context of our own on a device, without touching the application's: it is never current but
-/// for threads that ask for it (ALC_EXT_thread_local_context).
+/// A context of our own on a device, without touching the application's; or the application's own.
+/// Either is made current for none but those threads of ours that ask for it
+/// (ALC_EXT_thread_local_context).
 class OpenAlContext {
 public:
     /// @param rate  wished for [Hz]; 0: the device's own.
@@ -31,7 +41,12 @@ public:
     OpenAlContext(OpenAlDevice device, int rate);
     OpenAlContext(const OpenAlContext&) = delete;
     OpenAlContext& operator=(const OpenAlContext&) = delete;
-    ~OpenAlContext() { alcDestroyContext(context_); }
+    ~OpenAlContext() {
+        if (!is_borrowed())
+            alcDestroyContext(context_);
+    }
+
+    bool is_borrowed() const noexcept { return device_.context != nullptr; }
 
     int rate() const noexcept;          ///< the device's own [Hz]
     int period_frames() const noexcept; ///< mixed by the device at a time

@@ -11,8 +11,8 @@
 
 namespace ode::sound {
 
-/// A device that goes away is waited for: frames pass by at their pace, unheard, and sound goes on
-/// at the present when a device is there again.
+/// A device that goes away (but the application's own) is waited for: frames pass by at their pace,
+/// unheard, and sound goes on at the present when a device is there again.
 ///
 /// Plays live. write() puts frames into a lock-free ring; a thread of its own carries them to the
 /// device through OpenAlStream, in a context of its own that the application never sees.

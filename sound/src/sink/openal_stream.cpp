@@ -38,8 +38,11 @@ OpenAlStream::OpenAlStream(OpenAlDevice device, const Format& format,
     stereo_.resize(2 * frames);
     stereo16_.resize(2 * frames);
 
-    alGetError();
-    alDistanceModel(AL_NONE);
+    // The application's error flag is the application's. Without roll-off its distance model does
+    // nothing to our source.
+    const bool shared = context_.is_borrowed();
+    if (!shared)
+        alGetError();
     alGenSources(1, &source_);
     for (Buffer& buffer : buffer_)
         alGenBuffers(1, &buffer.id);
@@ -47,9 +50,11 @@ OpenAlStream::OpenAlStream(OpenAlDevice device, const Format& format,
     alSourcef(source_, AL_ROLLOFF_FACTOR, 0);
     if (alIsExtensionPresent("AL_SOFT_direct_channels"))
         alSourcei(source_, AL_DIRECT_CHANNELS_SOFT, AL_TRUE);
-    if (const ALenum error = alGetError(); error != AL_NO_ERROR)
+    const bool made = alIsSource(source_) && alIsBuffer(buffer_.back().id);
+    const ALenum error = shared ? AL_NO_ERROR : alGetError();
+    if (!made || error != AL_NO_ERROR)
         throw Refused("OpenAL refuses a source with three buffers (error " + std::to_string(error) +
-                      ")");
+                      "); the application may have too many sources");
 }
 
 OpenAlStream::~OpenAlStream() {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <string>
 
 namespace {
 
@@ -13,6 +14,7 @@ struct FakeWorld {
     std::optional<dSoftObserver> observer;
     int added = 0;
     int removed = 0;
+    std::string tier = "explicit";
 };
 FakeWorld fake;
 int world_handle;
@@ -37,6 +39,11 @@ int dSoftWorldRemoveObserver(dSoftWorldID, void* data) {
 dReal dSoftWorldGetTime(dSoftWorldID) { return 0.0; }
 int dSoftBodyGetModalBasis(dSoftBodyID, dSoftModalBasis*) { return 0; }
 int dSoftBodyGetStatus(dSoftBodyID, dSoftStatus*) { return 0; }
+int dSoftBodySetTier(dSoftBodyID, const char* name) {
+    fake.tier = name;
+    return 1;
+}
+const char* dSoftBodyGetTier(dSoftBodyID) { return fake.tier.c_str(); }
 int dSoftBodyGetTriangles(dSoftBodyID, const int**) { return 0; }
 
 namespace ode::sound::test {
@@ -91,6 +98,33 @@ class SoundWorldTest : public testing::Test {
 protected:
     void SetUp() override { fake = FakeWorld{}; }
 };
+
+// Underruns lower the tiers of what sounds, in two stages half a second apart; "stretch" gives
+// back.
+TEST_F(SoundWorldTest, PacePolicyDropsTiersAndGivesThemBack) {
+    SoundWorld world(world_id());
+    Body body(4);
+    world.add_listener();
+    body.step(0.01);
+    Pace pace;
+    pace.update(world.scene(), 1, 0.0);
+    EXPECT_EQ(fake.tier, "explicit") << "stretch is the default";
+    pace.set(Pace::Policy::kDropQuality);
+    pace.update(world.scene(), 1, 0.1);
+    EXPECT_EQ(fake.tier, "explicit") << "no underrun since";
+    pace.update(world.scene(), 2, 0.2);
+    EXPECT_EQ(fake.tier, "auto");
+    pace.update(world.scene(), 3, 0.5);
+    EXPECT_EQ(fake.tier, "auto") << "it has had no time to show";
+    pace.update(world.scene(), 3, 1.5);
+    EXPECT_EQ(fake.tier, "auto") << "it helped";
+    pace.update(world.scene(), 4, 2.0);
+    EXPECT_EQ(fake.tier, "modal");
+    pace.update(world.scene(), 5, 9.0);
+    EXPECT_EQ(pace.stage(), 2) << "nothing is left to drop";
+    pace.set(Pace::Policy::kStretch);
+    EXPECT_EQ(fake.tier, "explicit");
+}
 
 TEST_F(SoundWorldTest, WithoutListenerNothingIsObserved) {
     SoundWorld world(world_id());

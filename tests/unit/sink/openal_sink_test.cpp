@@ -3,6 +3,7 @@
 #include "sink/openal_sink.h"
 
 #include <AL/al.h>
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -67,6 +68,61 @@ TEST(OpenAlSink, LeavesTheApplicationsContextAlone) {
     alcDestroyContext(of_thread);
     alcDestroyContext(context);
     alcCloseDevice(device);
+}
+
+// The sink plays in the application's own context: what comes out is the stream bit for bit, beside
+// the application's source, and nothing of the application's is changed, not even its error flag.
+TEST(OpenAlSink, PlaysInTheApplicationsContext) {
+    const auto open_loopback = reinterpret_cast<LPALCLOOPBACKOPENDEVICESOFT>(
+        alcGetProcAddress(nullptr, "alcLoopbackOpenDeviceSOFT"));
+    const auto render = reinterpret_cast<LPALCRENDERSAMPLESSOFT>(
+        alcGetProcAddress(nullptr, "alcRenderSamplesSOFT"));
+    ALCdevice* device = open_loopback(nullptr);
+    ASSERT_NE(device, nullptr);
+    EXPECT_THROW(OpenAlDevice::of_application(), Refused) << "nothing is current";
+    const ALCint attributes[] = {ALC_FORMAT_CHANNELS_SOFT, ALC_STEREO_SOFT, ALC_FORMAT_TYPE_SOFT,
+                                 ALC_FLOAT_SOFT,           ALC_FREQUENCY,   48000,
+                                 ALC_OUTPUT_LIMITER_SOFT,  ALC_FALSE,       0};
+    ALCcontext* context = alcCreateContext(device, attributes);
+    ASSERT_NE(context, nullptr);
+    alcMakeContextCurrent(context);
+    alDistanceModel(AL_EXPONENT_DISTANCE);
+    ALuint own = 0;
+    alGenSources(1, &own);
+    alSourcef(own, AL_GAIN, -1); // an error that the application has yet to read
+    const std::vector<float> stream = test::noise(2 * 4000);
+    std::vector<float> heard(2 * 8000);
+    {
+        OpenAlDevice borrowed = OpenAlDevice::of_application();
+        borrowed.loopback = true;
+        OpenAlSink sink(std::move(borrowed));
+        ASSERT_TRUE(sink.open({48000, 2})) << sink.error();
+        EXPECT_EQ(alcGetCurrentContext(), context);
+        EXPECT_EQ(alGetError(), static_cast<ALenum>(AL_INVALID_VALUE)) << "the application's own";
+        EXPECT_EQ(alGetInteger(AL_DISTANCE_MODEL), AL_EXPONENT_DISTANCE);
+        sink.write(stream);
+        for (std::size_t f = 0; f < 8000; f += 100) {
+            render(device, &heard[2 * f], 100);
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        std::thread closing([&] { sink.close(); });
+        std::vector<float> rest(200);
+        for (int i = 0; i < 100; ++i) {
+            render(device, rest.data(), 100);
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+        closing.join();
+    }
+    const auto first = std::find_if(heard.begin(), heard.end(), [](float s) { return s != 0.0F; });
+    ASSERT_GE(std::distance(first, heard.end()), 3000);
+    EXPECT_TRUE(std::equal(stream.begin(), stream.begin() + 3000, first));
+    EXPECT_EQ(alcGetCurrentContext(), context);
+    EXPECT_EQ(alcGetContextsDevice(context), device) << "not closed";
+    EXPECT_TRUE(alIsSource(own));
+    alDeleteSources(1, &own);
+    alcMakeContextCurrent(nullptr);
+    alcDestroyContext(context);
+    EXPECT_TRUE(alcCloseDevice(device));
 }
 
 // The cable is pulled: frames pass by unheard, and when a device is there again sound goes on.
