@@ -46,6 +46,8 @@ private:
     void wake(const SurfaceView& view, BlockSink& out);
     void start(double time);
     void adapt(double substep);
+    double wanted() const noexcept; ///< between gathers [s]
+    bool is_shortest() const noexcept;
     void rewind(const SurfaceView& view, double duration);
     bool has_jumped(const SurfaceView& view, double duration) const noexcept;
     void record(const SurfaceView& view, BlockSink& out);
@@ -67,6 +69,8 @@ private:
     double substep_ = 0.0;      ///< its length [s]
     double last_length_ = 0.0;  ///< of the last interval [s]
     double uneven_until_ = 0.0; ///< intervals differed in length not long before [s]
+    double dense_until_ = 0.0;  ///< they did so by themselves, and are halved [s]
+    bool was_dense_ = false;    ///< the last one was
     double event_end_ = 0.0;    ///< end of the last interval [s]
     double rest_begin_ = 0.0;   ///< [s]
     double refreshed_ = 0.0;    ///< when the areas were taken [s]
