@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.25)
 get_filename_component(root ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
 set(ode_softbody base mesh model integrate modal collide couple reduced world hook api)
-set(sound dsp transfer source path listen sink mix bridge api)
+set(sound dsp transfer strike source path listen sink mix bridge api)
 set(sees_ode bridge api)                          # of sound
 set(public "<(ode_softbody/softbody|ode_sound/sound)[.]h(pp)?>")
 set(broken "")

@@ -9,6 +9,7 @@ namespace softsound {
 void add_demo(CLI::App& app, Common& common) {
     CLI::App& demo = *app.add_subcommand("demo", "Run a scene and hear, see and read its result");
     add_demo_bowl(demo, common);
+    add_demo_chimes(demo, common);
     // The parser's own complaint would not name what was typed, nor what there is.
     demo.allow_extras();
     demo.callback([&demo] {

@@ -63,7 +63,7 @@ void add_stage(CLI::App& command, Stage& stage) {
         ->capture_default_str();
 }
 
-Performance perform(scenes::World& world, const Stage& stage, bool quiet) {
+Performance perform(scenes::World& world, const Stage& stage, bool quiet, const Act& act) {
     // Sinks outlive the sound world, which plays out into them when it ends.
     const SinkHandle file(scenes::made(dSoundSinkCreateFile(stage.out.c_str())));
     const SinkHandle memory(scenes::made(dSoundSinkCreateMemory()));
@@ -84,12 +84,16 @@ Performance perform(scenes::World& world, const Stage& stage, bool quiet) {
         if (sink && !dSoundListenerAddSink(ears, sink))
             throw scenes::Refused("no sink");
 
+    if (act.begin)
+        act.begin(sound);
     const auto start = std::chrono::steady_clock::now();
     const double cpu_start = cpu_seconds();
     const long steps = std::lround(std::ceil(stage.seconds / stage.step - 1e-9));
     {
         Progress progress(stage.name, static_cast<double>(steps), quiet);
         for (long i = 0; i < steps; ++i) {
+            if (act.before_step)
+                act.before_step(static_cast<double>(i) * stage.step);
             world.step(stage.step);
             if (live) // 0.1 s suits OpenAL Soft's default period
                 dSoundSinkPace(live, 0.1);
@@ -103,6 +107,8 @@ Performance perform(scenes::World& world, const Stage& stage, bool quiet) {
     dSoftWorldGetStats(world.soft(), &p.world);
     p.sound.struct_size = sizeof p.sound;
     dSoundGetStats(sound, &p.sound);
+    if (act.end)
+        act.end();
     if (live)
         p.live_kind = dSoundSinkGetKind(live);
     sound.reset(); // what still travels arrives

@@ -3,6 +3,7 @@
 #include "scenes/world.h"
 #include "softsound/command.h"
 
+#include <functional>
 #include <memory>
 #include <ode_sound/sound.hpp>
 #include <span>
@@ -40,9 +41,16 @@ struct Performance {
     std::string live_kind;   ///< "openal", "null" (no device), "" (not asked for)
 };
 
+/// What a scene does besides being stepped.
+struct Act {
+    std::function<void(dSoundWorldID)> begin;     ///< before the first step
+    std::function<void(double time)> before_step; ///< [s]
+    std::function<void()> end;                    ///< before the sound world ends
+};
+
 /// Steps a world to its end with a listener in it, and leaves the sound in a file.
 /// @throws scenes::Refused, std::runtime_error
-Performance perform(scenes::World& world, const Stage& stage, bool quiet);
+Performance perform(scenes::World& world, const Stage& stage, bool quiet, const Act& act = {});
 
 /// Results that every demo reports, as data.
 nlohmann::ordered_json as_json(const Performance& performance);

@@ -24,9 +24,9 @@ public:
     OdeApp(const OdeApp&) = delete;
     OdeApp& operator=(const OdeApp&) = delete;
 
-    void step(dReal h) {
+    void step(dReal h, int (*by)(dWorldID, dReal) = dWorldQuickStep) {
         dSpaceCollide(space, this, &OdeApp::near);
-        dWorldQuickStep(world, h);
+        by(world, h);
         dJointGroupEmpty(contacts);
     }
 
@@ -44,7 +44,9 @@ public:
     dWorldID world;
     dSpaceID space;
     dJointGroupID contacts;
-    int pairs_seen = 0; ///< by the near callback
+    int pairs_seen = 0;                 ///< by the near callback
+    dReal bounce = 0;                   ///< of all contacts
+    dJointFeedback* feedback = nullptr; ///< the application's own, of the contact made last
 
 private:
     static void near(void* data, dGeomID a, dGeomID b) {
@@ -55,8 +57,15 @@ private:
         for (int i = 0; i < n; ++i) {
             contact[i].surface.mode = dContactApprox1;
             contact[i].surface.mu = 0.5;
-            dJointAttach(dJointCreateContact(app.world, app.contacts, &contact[i]), dGeomGetBody(a),
-                         dGeomGetBody(b));
+            if (app.bounce > 0) {
+                contact[i].surface.mode |= dContactBounce;
+                contact[i].surface.bounce = app.bounce;
+                contact[i].surface.bounce_vel = 0.01;
+            }
+            const dJointID joint = dJointCreateContact(app.world, app.contacts, &contact[i]);
+            dJointAttach(joint, dGeomGetBody(a), dGeomGetBody(b));
+            if (app.feedback)
+                dJointSetFeedback(joint, app.feedback);
         }
     }
 };

@@ -72,6 +72,14 @@ DSOFT_API int dSoftMeshGetNodes(dSoftMeshID mesh, const dReal** first);
  * @param first  out, unless NULL.
  * @return element count. */
 DSOFT_API int dSoftMeshGetElements(dSoftMeshID mesh, const int** first);
+/** The same body in elements of ten nodes, the middles of edges after the nodes as given; facets
+ * that meet at less than 50 degrees are taken for a smooth surface, whose curvature it gets back.
+ * Groups are kept. Of a second-order mesh a copy. */
+DSOFT_API dSoftMeshID dSoftMeshCreateQuadratic(dSoftMeshID mesh);
+/** Surface triangles, three nodes each, outward; four a face of a second-order mesh. Borrowed while
+ * the mesh lives. @param first  out, unless NULL. @return triangle count; 0 after a message for a
+ * surface that can't be told: three elements on one face. */
+DSOFT_API int dSoftMeshGetTriangles(dSoftMeshID mesh, const int** first);
 /** Physical groups of the elements: 0 for a mesh without, which is one solid. */
 DSOFT_API int dSoftMeshGetGroupCount(dSoftMeshID mesh);
 /** Name of the i-th group, NULL past the last; borrowed while the mesh lives. */

@@ -353,6 +353,8 @@ typedef struct dSoftObserver {
     dSoftModalCallback* on_modal; /**< in place of on_substep for bodies in their modes, whose nodes
                                        are then worked out for nobody; NULL: on_substep is called
                                        for all bodies alike */
+    dSoftStepCallback* on_moved;  /**< after ODE's own step, before dWorldStep returns: joints still
+                                       are those of the step */
 } dSoftObserver;
 
 DSOFT_API int dSoftWorldAddObserver(dSoftWorldID world, const dSoftObserver* observer);
@@ -366,6 +368,7 @@ DSOFT_API int dSoftWorldRemoveObserver(dSoftWorldID world, void* data);
 #endif
 
 #include <ode_softbody/rest.h>
+#include <ode_softbody/rigid.h>
 #include <ode_softbody/tier.h>
 
 #endif

@@ -3,6 +3,7 @@
 #include "api/boundary.h"
 #include "base/live_id.h"
 #include "hook/step_hook.h"
+#include "mesh/surface.h"
 #include "mesh/tet_mesh.h"
 #include "world/body.h"
 #include "world/soft_world.h"
@@ -12,6 +13,7 @@
 /// A mesh is copied into the bodies made of it, so that it may go first.
 struct dxSoftMesh {
     ode::soft::TetMesh mesh;
+    ode::soft::Surface surface = {}; ///< once asked for
     ode::soft::LiveId<dxSoftMesh> id{*this};
 };
 

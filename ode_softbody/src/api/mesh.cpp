@@ -146,6 +146,34 @@ int dSoftMeshGetElements(dSoftMeshID id, const int** first) {
     return static_cast<int>(mesh->mesh.element_count());
 }
 
+dSoftMeshID dSoftMeshCreateQuadratic(dSoftMeshID id) {
+    dxSoftMesh* mesh = live(id, __func__);
+    if (!mesh)
+        return nullptr;
+    return make_mesh(__func__, [&] {
+        TetMesh straight = promote_to_quadratic(mesh->mesh);
+        if (mesh->mesh.order == 2)
+            return straight;
+        TetMesh curved = straight;
+        const CurveReport report = curve_surface(curved);
+        // Half-curved elements are worse than flat ones: see to_tolerance.cpp.
+        return report.moved > 4 * report.limited ? curved : straight;
+    });
+}
+
+int dSoftMeshGetTriangles(dSoftMeshID id, const int** first) {
+    dxSoftMesh* mesh = live(id, __func__);
+    if (!mesh)
+        return 0;
+    return guarded(__func__, 0, [&] {
+        if (mesh->surface.triangle.empty())
+            mesh->surface = extract_surface(mesh->mesh);
+        if (first)
+            *first = mesh->surface.triangle.front().data();
+        return static_cast<int>(mesh->surface.triangle.size());
+    });
+}
+
 int dSoftMeshGetGroupCount(dSoftMeshID id) {
     dxSoftMesh* mesh = live(id, __func__);
     if (!mesh)

@@ -46,6 +46,11 @@ public:
             call_.on_step(call_.data, to_id(world), time);
     }
 
+    void on_moved(SoftWorld& world, double time) noexcept override {
+        if (call_.on_moved)
+            call_.on_moved(call_.data, to_id(world), time);
+    }
+
     void on_body_end(Body& body) noexcept override {
         if (call_.on_body_end)
             call_.on_body_end(call_.data, to_id(body));

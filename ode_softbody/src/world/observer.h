@@ -33,6 +33,8 @@ public:
     virtual void on_substep(const SubstepView& view) noexcept = 0;
     /// After the substeps of a step, before ODE's own. @param time  at the step's end [s].
     virtual void on_step(SoftWorld& world, double time) noexcept = 0;
+    /// After ODE's own step.
+    virtual void on_moved(SoftWorld&, double) noexcept {}
     virtual void on_body_end(Body& body) noexcept = 0;
     virtual void on_world_end(SoftWorld& world) noexcept = 0;
 };

@@ -57,6 +57,7 @@ public:
 
     /// A contact joint has been made between rigid bodies.
     void note_contact(dJointID joint, const dContact& contact) { record_.note(joint, contact); }
+    const dContact* find_contact(dJointID joint) const noexcept { return record_.find(joint); }
 
     /// The shadow of a body in this step, or nullptr.
     const RigidShadow* find_shadow(dBodyID body) const noexcept;

@@ -124,6 +124,8 @@ void SoftWorld::end_step() noexcept {
             body->moved();
     slumber_.carry_out();
     other_spaces_.clear();
+    if (!observer_.empty())
+        watch_move();
     stepping_ = false;
     drop_past_observers();
 }
@@ -338,6 +340,14 @@ void SoftWorld::show_substep(double time, double dt) noexcept {
         });
     }
     stats_.observer_seconds += seconds_since(start);
+}
+
+void SoftWorld::watch_move() noexcept {
+    const auto start = Clock::now();
+    each_observer([&](Observer& observer) { observer.on_moved(*this, time_); });
+    const double spent = seconds_since(start);
+    stats_.observer_seconds += spent;
+    stats_.seconds += spent;
 }
 
 void SoftWorld::watch_step() noexcept {

@@ -109,6 +109,10 @@ public:
     void note_contact(dJointID joint, const dContact& contact) {
         exchange_.note_contact(joint, contact);
     }
+    /// What a contact joint was made of; nullptr: nobody saw.
+    const dContact* find_contact(dJointID joint) const noexcept {
+        return exchange_.find_contact(joint);
+    }
 
 private:
     friend class Body;
@@ -150,6 +154,7 @@ private:
     void drop_past_observers() noexcept; ///< unless one may be on the stack
     void show_substep(double time, double dt) noexcept;
     void watch_step() noexcept;
+    void watch_move() noexcept;
 
     dWorldID world_;
     dSpaceID space_;

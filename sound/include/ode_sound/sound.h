@@ -20,6 +20,7 @@ extern "C" {
 typedef struct dxSoundWorld* dSoundWorldID;
 typedef struct dxSoundListener* dSoundListenerID;
 typedef struct dxSoundSink* dSoundSinkID;
+typedef struct dxSoundModal* dSoundModalID;
 
 /* ---- World ------------------------------------------------------------------------------- */
 
@@ -108,6 +109,57 @@ typedef void dSoundAlarmCallback(void* data, dSoftBodyID body, dReal time);
  * second. A message says so, dSoundStats counts, and the callback is called; NULL for none. Bodies
  * in their modes can't go unstable; under "paper" sampling nothing is listened for. */
 DSOUND_API int dSoundSetAlarm(dSoundWorldID world, dSoundAlarmCallback* callback, void* data);
+
+/* ---- Rigid bodies ------------------------------------------------------------------------- */
+
+/** Gives a rigid body of ODE's its voice: it rings in the vibration modes of a mesh when contact
+ * joints strike it. The application goes on as before; of contacts without feedback
+ * (dJointSetFeedback) the library takes its own.
+ *
+ * The mesh's centre of mass lies in the body's position, its axes are the body's. Modes are found
+ * once (some seconds for 1000 elements; kept in the cache that dSoftModesOptions names), and shared
+ * by bodies of the same mesh and solid. The mesh and the solid are the caller's, and may go.
+ *
+ * Contact: ODE's impulse of a step becomes a pulse of the length that Hertz's law gives for both
+ * materials and curvatures, at the time within the step that depth and closing speed tell. That
+ * time lies in the step before; while there are such bodies all sound therefore leaves one step of
+ * ODE's later, not later in itself. Contacts that only bear load are silent. Where joints are not
+ * seen being made (dSoftHookThreading) the contact point is found from force and torque.
+ *
+ * Lives until dSoundModalDestroy(), the sound world's end, or unheard from the body's end on.
+ * @return NULL after a sentence: no sound world over a soft world of the body's world, modes can't
+ * be had, mesh and body don't fit. */
+DSOUND_API dSoundModalID dSoundModalCreate(dBodyID body, dSoftMeshID mesh, const dSoftSolid* solid);
+/** What rings is faded out in 5 ms. */
+DSOUND_API void dSoundModalDestroy(dSoundModalID modal);
+/** NULL once the body has ended. */
+DSOUND_API dBodyID dSoundModalGetBody(dSoundModalID modal);
+/** Up to `count` frequencies [Hz], ascending, and the time in which each mode falls by 60 dB [s];
+ * either may be NULL. @return how many modes there are. */
+DSOUND_API int dSoundModalGetModes(dSoundModalID modal, int count, dReal* frequencies, dReal* t60);
+/** A factor on the body's pressure, >= 0; default 1. Reached without a click in 5 ms. */
+DSOUND_API int dSoundModalSetGain(dSoundModalID modal, dReal gain);
+/** Strikes the body beside what ODE's contacts do, which its motion doesn't feel: a hammer that is
+ * not there. Takes effect in the next step.
+ * @param point    world [m]; the nearest point of the surface is struck.
+ * @param impulse  world [N s].
+ * @param contact  time that the hammer stays in touch [s], > 0. */
+DSOUND_API int dSoundModalStrike(dSoundModalID modal, const dVector3 point, const dVector3 impulse,
+                                 dReal contact);
+
+/** Start with struct_size = sizeof(dSoundModalStatus). */
+typedef struct dSoundModalStatus {
+    unsigned struct_size;
+    int modes;           /**< that the body has, up to 22 kHz */
+    unsigned long blows; /**< heard of contacts so far */
+    dReal energy;        /**< of its vibration [J]; 0 without a listener */
+    dReal mass;          /**< of the mesh in its material [kg] */
+} dSoundModalStatus;
+DSOUND_API int dSoundModalGetStatus(dSoundModalID modal, dSoundModalStatus* status);
+
+/** What a geom without a voice is made of, for the time of contact: E and nu count.
+ * @param geom  NULL: all that nobody has told of; stone (30 GPa) at first. */
+DSOUND_API int dSoundSetGeomSolid(dSoundWorldID world, dGeomID geom, const dSoftSolid* solid);
 
 /* ---- Listener ---------------------------------------------------------------------------- */
 

@@ -11,6 +11,7 @@ namespace ode::sound {
 
 using WorldHandle = soft::Handle<dSoundWorldID, dSoundWorldDestroy>;
 using ListenerHandle = soft::Handle<dSoundListenerID, dSoundListenerDestroy>;
+using ModalHandle = soft::Handle<dSoundModalID, dSoundModalDestroy>;
 using SinkHandle = soft::Handle<dSoundSinkID, dSoundSinkDestroy>;
 
 } // namespace ode::sound

@@ -43,6 +43,14 @@ public:
         std::erase(sinks_, sink);
     }
 
+    dSoundWorldID of(dSoftWorldID soft) noexcept {
+        const std::lock_guard guard(lock_);
+        for (std::size_t i = worlds_.size(); i-- > 0;)
+            if (worlds_[i]->world.soft_world() == soft)
+                return worlds_[i];
+        return nullptr;
+    }
+
 private:
     std::mutex lock_;
     std::vector<dSoundWorldID> worlds_;
@@ -59,6 +67,7 @@ LeftOpen& left_open() {
 void keep(dSoundWorldID world) { left_open().add(world); }
 void keep(dSoundSinkID sink) { left_open().add(sink); }
 void forget(dSoundWorldID world) noexcept { left_open().remove(world); }
+dSoundWorldID sound_of(dSoftWorldID world) noexcept { return left_open().of(world); }
 void forget(dSoundSinkID sink) noexcept { left_open().remove(sink); }
 
 } // namespace ode::sound

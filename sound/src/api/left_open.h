@@ -11,5 +11,7 @@ void keep(dSoundWorldID world);
 void keep(dSoundSinkID sink);
 void forget(dSoundWorldID world) noexcept;
 void forget(dSoundSinkID sink) noexcept;
+/// The sound world made last over a soft world; null: none.
+dSoundWorldID sound_of(dSoftWorldID world) noexcept;
 
 } // namespace ode::sound

@@ -43,6 +43,8 @@ void dSoundWorldDestroy(dSoundWorldID world) {
     forget(world);
     for (dSoundListenerID listener : world->listeners)
         delete listener;
+    for (dSoundModalID modal : world->modals)
+        delete modal;
     delete world;
 }
 

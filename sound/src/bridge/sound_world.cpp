@@ -1,12 +1,10 @@
 #include "bridge/sound_world.h"
 
-#include "source/node_rule.h"
+#include "mix/voice_model.h"
 
 #include <ode/error.h>
 
-#include <array>
 #include <exception>
-#include <numbers>
 #include <stdexcept>
 #include <type_traits>
 
@@ -15,13 +13,6 @@ namespace {
 
 static_assert(std::is_same_v<dReal, double>,
               "the sound path reads ODE's numbers in place: build ODE in double precision");
-
-/// Whether there is a table of how modes sound by this rule; else their nodes are listened to.
-bool hears_modes(const Settings& settings) noexcept {
-    return settings.sampling == Sampling::kSinc && (settings.radiation == Radiation::kMonopole ||
-                                                    settings.radiation == Radiation::kKirchhoff ||
-                                                    settings.radiation == Radiation::kTransfer);
-}
 
 Alarm::Fare fare_of(const void* body) {
     dSoftStatus status{};
@@ -57,14 +48,17 @@ void SoundWorld::observe() {
             self(data).on_modal(*state);
         };
     observer.on_step = [](void* data, dSoftWorldID, dReal time) { self(data).on_step(time); };
+    observer.on_moved = [](void* data, dSoftWorldID, dReal time) { self(data).on_moved(time); };
     observer.on_body_end = [](void* data, dSoftBodyID body) { self(data).on_body_end(body); };
     observer.on_world_end = [](void* data, dSoftWorldID) { self(data).on_world_end(); };
+    stepped_ = dSoftWorldGetTime(world_);
     observing_ = dSoftWorldAddObserver(world_, &observer) != 0;
 }
 
 void SoundWorld::set(const Settings& settings) {
     scene_.set(settings);
     voice_model_.clear();
+    rigid_models_.forget_voices();
     if (!observing_)
         return;
     ignore(); // whether modes are wanted may have changed
@@ -141,45 +135,21 @@ std::shared_ptr<const ModalVoiceModel> SoundWorld::voice_model(dSoftBodyID body)
         return known;
     const int* triangle = nullptr;
     const int triangles = dSoftBodyGetTriangles(body, &triangle);
-    ModalSurface surface;
-    std::vector<int> own(static_cast<std::size_t>(basis.node_count), -1);
-    std::vector<int> node;
-    for (int t = 0; t < triangles; ++t) {
-        std::array<int, 3> corner;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const auto n = static_cast<std::size_t>(triangle[3 * t + static_cast<int>(c)]);
-            if (own[n] < 0) {
-                own[n] = static_cast<int>(node.size());
-                node.push_back(static_cast<int>(n));
-                surface.mesh.node.emplace_back(basis.rest + 3 * n);
-            }
-            corner[c] = own[n];
-        }
-        surface.mesh.triangle.push_back(corner);
-    }
-    ModalVoiceModel model;
-    model.omega.assign(basis.omega, basis.omega + basis.mode_count);
-    model.decay.assign(basis.decay, basis.decay + basis.mode_count);
-    for (int k = 0; k < basis.mode_count; ++k) {
-        surface.frequency.push_back(basis.omega[k] / (2.0 * std::numbers::pi));
-        for (const int n : node)
+    const SurfaceNumbers own({triangle, 3 * static_cast<std::size_t>(triangles)},
+                             static_cast<std::size_t>(basis.node_count));
+    BoundaryMesh mesh;
+    mesh.triangle = own.triangle;
+    for (const int n : own.node)
+        mesh.node.emplace_back(basis.rest + 3 * n);
+    std::vector<double> shape;
+    for (int k = 0; k < basis.mode_count; ++k)
+        for (const int n : own.node)
             for (int axis = 0; axis < 3; ++axis)
-                surface.shape.push_back(
+                shape.push_back(
                     static_cast<double>(basis.shape[(3 * n + axis) * basis.stride + k]));
-    }
-    const Settings& settings = scene_.settings();
-    const Air& air = settings.air;
-    const Leaning leaning = radiation_leaning(settings.radiation);
-    if (settings.radiation == Radiation::kTransfer) {
-        TransferOptions options;
-        options.density = air.density;
-        options.speed = air.speed;
-        model.table = make_transfer_table(surface, options);
-    } else {
-        model.table = node_table(surface, leaning, air, settings.send_rate());
-    }
-    model.rigid = rigid_sound(surface.mesh, Vec3::Zero(), air);
-    auto made = std::make_shared<const ModalVoiceModel>(std::move(model));
+    const auto modes = static_cast<std::size_t>(basis.mode_count);
+    const auto made = make_voice_model({basis.omega, modes}, {basis.decay, modes}, mesh, shape,
+                                       scene_.settings());
     place = made;
     return made;
 }
@@ -206,19 +176,46 @@ void SoundWorld::on_modal(const dSoftModalState& state) noexcept {
     }
 }
 
+void SoundWorld::strike(RigidBody& body, const Vec3& point, const Vec3& impulse, double contact) {
+    if (scene_.listeners() > 0 && body.body)
+        rigid_.strike(body, point, impulse, contact, stepped_, scene_, rigid_models_);
+}
+
+void SoundWorld::end_step(double time, double settled) {
+    scene_.end_step(time, settled);
+    occlusion_.update(scene_, time - stepped_);
+    alarm_.update(
+        scene_, time, &fare_of,
+        [this](const void* body, double when, Alarm::Cause cause) { raise(body, when, cause); });
+    stepped_ = time;
+}
+
 void SoundWorld::on_step(double time) noexcept {
     if (failed_)
         return;
+    follows_rigid_ = !rigid_.empty();
     try {
         cost_.run_whole([&] {
-            scene_.end_step(time);
-            occlusion_.update(scene_, time - stepped_);
-            alarm_.update(scene_, time, &fare_of,
-                          [this](const void* body, double when, Alarm::Cause cause) {
-                              raise(body, when, cause);
-                          });
+            if (follows_rigid_)
+                rigid_.begin_step(world_, stepped_, scene_);
+            else
+                end_step(time, time);
         });
-        stepped_ = time;
+    } catch (const std::exception& e) {
+        failed_ = true;
+        dMessage(0, "sound stops here: %s", e.what());
+    }
+}
+
+void SoundWorld::on_moved(double time) noexcept {
+    if (failed_ || !follows_rigid_)
+        return;
+    try {
+        cost_.run_whole([&] {
+            const double begin = stepped_;
+            rigid_.end_step(time, scene_, rigid_models_);
+            end_step(time, begin);
+        });
     } catch (const std::exception& e) {
         failed_ = true;
         dMessage(0, "sound stops here: %s", e.what());

@@ -2,6 +2,7 @@
 
 #include "bridge/occlusion.h"
 #include "bridge/pace.h"
+#include "bridge/rigid_bodies.h"
 #include "mix/alarm.h"
 #include "mix/cpu_clock.h"
 #include "mix/scene.h"
@@ -41,6 +42,12 @@ public:
     Listener& add_listener();
     void remove_listener(Listener& listener) noexcept;
 
+    RigidBodies& rigid() noexcept { return rigid_; }
+    /// A blow that no joint deals, at the present time. World frame.
+    void strike(RigidBody& body, const Vec3& point, const Vec3& impulse, double contact);
+    RigidModels& rigid_models() noexcept { return rigid_models_; }
+    dSoftWorldID soft_world() const noexcept { return world_; }
+
     /// Lets the soft world go, plays out what still travels and closes the sinks of all listeners.
     /// Nothing is heard after. Idempotent.
     void end() noexcept;
@@ -52,11 +59,13 @@ public:
     void on_substep(const dSoftSubstep& substep) noexcept;
     void on_modal(const dSoftModalState& state) noexcept;
     void on_step(double time) noexcept;
+    void on_moved(double time) noexcept;
     void on_body_end(dSoftBodyID body) noexcept;
     void on_world_end() noexcept;
 
 private:
     void observe();
+    void end_step(double time, double settled);
     void ignore() noexcept;
     void play_out() noexcept;
     void raise(const void* body, double time, Alarm::Cause cause);
@@ -69,6 +78,9 @@ private:
     Scene scene_;
     /// By the identity of their modes, while some voice has them.
     std::map<const void*, std::weak_ptr<const ModalVoiceModel>> voice_model_;
+    RigidModels rigid_models_;
+    RigidBodies rigid_;
+    bool follows_rigid_ = false; ///< in this step
     Occlusion occlusion_;
     Alarm alarm_;
     Pace pace_;

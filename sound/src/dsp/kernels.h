@@ -43,6 +43,9 @@ struct SplatSurface {
     const double* table;      ///< SplatTable::rows()
 };
 
+/// Oscillators are stored as rows of floats, in whole numbers of this many.
+constexpr int kModeLanes = 16;
+
 struct Kernels {
     const char* name;
 
@@ -76,6 +79,18 @@ struct Kernels {
     /// Of the third differences a_i of row[i] .. row[i + 3], i = 0..4: own[i] = a_i . a_i and
     /// next[i] = a_i . a_(i+1), i = 0..3; nodes a multiple of four.
     void (*differences)(int nodes, const double* const row[8], double own[4], double next[4]);
+
+    /// Oscillators over `samples` samples, each by q += a q + b v, v += c q + d v (both of the old
+    /// q and v): rows a, b, c, d of `step`. Changes are what is stored, so that floats keep slow
+    /// decays. @param q, v  state, left as after the last sample.
+    /// @param q_rows, v_rows  out: the state after each sample, a row each.
+    void (*ring)(int columns, int samples, const float* step, float* q, float* v, float* q_rows,
+                 float* v_rows);
+
+    /// out[e][s] = sum over the columns of by[e][0] q_rows[s] + by[e][1] v_rows[s], for e below
+    /// `ears`, which is 1 or 2.
+    void (*weigh)(int columns, int samples, int ears, const float* const (*by)[2],
+                  const float* q_rows, const float* v_rows, float* const* out);
 
     /// Adds flow / distance of every node to the rings of the ears at the retarded time.
     /// @return largest delay that was not dropped [samples]; 0 if all were.

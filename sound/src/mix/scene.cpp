@@ -70,7 +70,7 @@ Scene::Body& Scene::find(const void* body, std::span<const int> triangle) {
                                                 settings_.air.density * settings_.air.speed,
                                                 settings_.radiation == Radiation::kPaper);
     const double loud = gain(body);
-    bodies_.push_back({body, std::move(source), nullptr, loud, loud});
+    bodies_.push_back({body, std::move(source), nullptr, nullptr, loud, loud});
     return bodies_.back();
 }
 
@@ -90,6 +90,20 @@ void Scene::push(const void* body, std::span<const int> triangle, const SurfaceV
     sounding_ = &own;
     if (own.source->push(view, *this))
         ++count_.gathers;
+}
+
+StruckVoice& Scene::add_struck(const void* body, std::shared_ptr<const StruckVoiceModel> model) {
+    const double loud = gain(body);
+    bodies_.push_back({body, nullptr, nullptr,
+                       std::make_unique<StruckVoice>(std::move(model), settings_.send_rate()), loud,
+                       loud});
+    return *bodies_.back().struck;
+}
+
+StruckVoice* Scene::find_struck(const void* body) noexcept {
+    const auto found = std::find_if(bodies_.begin(), bodies_.end(),
+                                    [&](const Body& own) { return own.key == body && own.struck; });
+    return found != bodies_.end() ? found->struck.get() : nullptr;
 }
 
 void Scene::set_gain(const void* body, double gain) {
@@ -121,14 +135,17 @@ void Scene::end_body(const void* body) noexcept {
             own.key = nullptr; // what it did last is still to be heard
 }
 
-void Scene::end_step(double time) {
+void Scene::end_step(double time, double settled) {
     if (!stepping_)
         begin_step(time_);
     for (Body& body : bodies_) {
         sounding_ = &body;
-        body.source->advance_to(time, *this);
+        if (body.source)
+            body.source->advance_to(time, *this);
         if (body.voice)
             body.voice->advance_to(time, *this);
+        if (body.struck && !body.key)
+            body.struck->finish(*this);
         if (body.is_silent())
             body.now = body.gain; // nobody hears it jump
     }
@@ -136,15 +153,18 @@ void Scene::end_step(double time) {
         if (body.key || !body.is_silent())
             return false;
         end_voice(body);
-        for (const auto& listener : listeners_)
-            listener->forget(*body.source);
+        for (const auto& listener : listeners_) {
+            if (body.source)
+                listener->forget(*body.source);
+            listener->forget_voice(body.struck.get());
+        }
         return true;
     });
     // Sound comes later while a body of long substeps is there; none of it is lost.
     int lag = settings_.lag();
     for (const Body& body : bodies_)
-        lag = std::max(lag, body.source->lag());
-    const std::int64_t open = settings_.first_open_frame(time, lag);
+        lag = std::max(lag, body.source ? body.source->lag() : 0);
+    const std::int64_t open = settings_.first_open_frame(settled, lag);
     for (const auto& listener : listeners_)
         listener->render(open);
     stepping_ = false;
@@ -156,9 +176,12 @@ void Scene::finish() {
     constexpr double kSettled = 0.1; // [s]: longer than any source takes to fall silent
     for (Body& body : bodies_) {
         sounding_ = &body;
-        body.source->advance_to(time_ + kSettled, *this);
+        if (body.source)
+            body.source->advance_to(time_ + kSettled, *this);
         if (body.voice)
             body.voice->advance_to(time_ + kSettled, *this);
+        if (body.struck)
+            body.struck->finish(*this);
     }
     for (const auto& listener : listeners_)
         listener->render(listener->last_frame());

@@ -3,6 +3,7 @@
 #include "mix/listener.h"
 #include "source/body_source.h"
 #include "source/modal_voice.h"
+#include "source/struck_voice.h"
 
 #include <memory>
 #include <vector>
@@ -57,6 +58,20 @@ public:
         sounding_ = &own;
         own.voice->push(view, *this);
     }
+    /// A rigid body that sounds when it is struck; the scene's, until end_body(), set() or the last
+    /// listener goes.
+    StruckVoice& add_struck(const void* body, std::shared_ptr<const StruckVoiceModel> model);
+    StruckVoice* find_struck(const void* body) noexcept;
+    /// Lets rigid bodies give off what they did. @param pose  of a body, by its address.
+    template <class Pose>
+    void advance_struck(Pose pose) {
+        for (Body& own : bodies_)
+            if (own.struck && own.key) {
+                sounding_ = &own;
+                own.struck->advance(pose(own.key), *this);
+            }
+    }
+
     /// How loud a body is from now on; 1 as it is, 0 silent, and then it costs nothing. Reached in
     /// kGainTime, without a click. May come before the body's first substep.
     void set_gain(const void* body, double gain);
@@ -67,14 +82,16 @@ public:
     template <class Use>
     void for_each_body(Use&& use) {
         for (Body& body : bodies_)
-            if (body.key)
+            if (body.key && body.source)
                 use(body.key, *body.source);
     }
 
     /// The body will come no more; its address may be used anew.
     void end_body(const void* body) noexcept;
-    /// All substeps up to `time` [s] have come.
-    void end_step(double time);
+    /// All substeps up to `time` [s] have come, and rigid bodies have been advanced to `settled`,
+    /// which may be earlier: what is heard is worked out as far as nothing can be added.
+    void end_step(double time, double settled);
+    void end_step(double time) { end_step(time, time); }
     /// Plays out what still travels. push() may follow, at a later time.
     void finish();
 
@@ -83,11 +100,13 @@ public:
 
 private:
     struct Body {
-        const void* key;                    ///< null once it has ended
-        std::unique_ptr<BodySource> source; ///< of its surface
-        std::unique_ptr<ModalVoice> voice;  ///< of its modes; null: it never moved in them
+        const void* key;                     ///< null once it has ended
+        std::unique_ptr<BodySource> source;  ///< of its surface; null for a rigid body
+        std::unique_ptr<ModalVoice> voice;   ///< of its modes; null: it never moved in them
+        std::unique_ptr<StruckVoice> struck; ///< of a rigid body
         bool is_silent() const noexcept {
-            return source->is_silent() && (!voice || voice->is_silent());
+            return (!source || source->is_silent()) && (!voice || voice->is_silent()) &&
+                   (!struck || struck->is_silent());
         }
         double gain; ///< wanted
         double now;  ///< heard

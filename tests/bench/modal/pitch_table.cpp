@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "modal/to_tolerance.h"
+#include "scenes/timoshenko.h"
 #include "support/pitch_cases.h"
-#include "support/timoshenko.h"
 
 #include <algorithm>
 #include <ctime>

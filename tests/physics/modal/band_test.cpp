@@ -1,6 +1,6 @@
 // The library's own statement of its error, against references on meshes of half the size.
+#include "scenes/timoshenko.h"
 #include "support/pitch_cases.h"
-#include "support/timoshenko.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Frequencies of solids against closed forms and published references (cases A1-A4, A7, A9).
 #include "mesh/generate.h"
 #include "modal/solve_modes.h"
+#include "scenes/timoshenko.h"
 #include "support/quadratic.h"
-#include "support/timoshenko.h"
 
 #include <gtest/gtest.h>
 

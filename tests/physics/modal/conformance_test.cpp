@@ -1,7 +1,7 @@
 // Modal cases that other finite-element programs publish or were run on (case A13).
 #include "mesh/generate.h"
 #include "modal/solve_modes.h"
-#include "support/timoshenko.h"
+#include "scenes/timoshenko.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "mesh/generate.h"
 #include "mesh/promote.h"
 #include "modal/to_tolerance.h"
-#include "support/timoshenko.h"
+#include "scenes/timoshenko.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Bars and tubes that were measured (cases A5, A6).
 #include "mesh/generate.h"
 #include "modal/solve_modes.h"
-#include "support/timoshenko.h"
+#include "scenes/timoshenko.h"
 
 #include <gtest/gtest.h>
 

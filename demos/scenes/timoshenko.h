@@ -65,6 +65,30 @@ struct TimoshenkoBar {
     }
 };
 
+/// A round tube with free ends, with Hutchinson's shear coefficient (2001,
+/// doi:10.1115/1.1349417), which agrees with the solid to the next order in wavelength: Cowper's is
+/// 12 cents off in a fourth partial.
+struct TimoshenkoTube {
+    double length, outer, inner; ///< radii [m]
+    double young, poisson, density;
+
+    std::vector<double> frequencies(std::size_t count) const {
+        const double gyration = (outer * outer + inner * inner) / 4;
+        const double r2 = gyration / (length * length);
+        const double a = outer * outer, b = inner * inner, nu = poisson;
+        const double shear =
+            6 * (a + b) * (a + b) * (1 + nu) * (1 + nu) /
+            (7 * a * a + 34 * a * b + 7 * b * b + nu * (12 * a * a + 48 * a * b + 12 * b * b) +
+             nu * nu * (4 * a * a + 16 * a * b + 4 * b * b));
+        std::vector<double> out;
+        for (const double root :
+             timoshenko_roots(BeamEnds::kFree, r2, r2 * 2 * (1 + poisson) / shear, count))
+            out.push_back(root / (2 * std::numbers::pi * length * length) *
+                          std::sqrt(young * gyration / density));
+        return out;
+    }
+};
+
 /// 1200 log2(f / reference).
 inline double cents(double f, double reference) { return 1200 * std::log2(f / reference); }
 

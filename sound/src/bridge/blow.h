@@ -1,0 +1,35 @@
+#pragma once
+
+#include "bridge/rigid_touch.h"
+
+#include <optional>
+
+namespace ode::sound {
+
+/// How a contact has been before the present step.
+enum class Acquaintance {
+    kNew,    ///< nothing touched there lately
+    kParted, ///< it did within the last Blow::kFlutter steps, but not in the one before
+    kLasting ///< it did in the step before
+};
+
+/// What a contact joint does in a step that is to be heard as a stroke.
+struct Blow {
+    static constexpr double kFlutter = 6.0; ///< steps
+
+    double time;  ///< when it fell [s]
+    double speed; ///< of closing then [m/s]
+    double mass;  ///< effective, of both along the normal [kg]
+    Vec3 impulse; ///< on the first body [N s]
+    bool goes_on; ///< the stroke takes more than one step: it is a push
+};
+
+/// Nothing for a contact that merely bears load: ODE gives the load of a step at once, so that what
+/// is heard of a contact at rest would be steps of ODE's. What bears is told from what strikes by
+/// how fast it closes before the step. A body at rest loses touch for a step or a few, rocks and
+/// comes back at the speed that it falls in as many: bounces too short for ODE's step are no news.
+/// @param begin  of the step [s].  @param h  its length.  @param before  of the step before it.
+std::optional<Blow> find_blow(const RigidTouch& touch, Acquaintance acquaintance, double begin,
+                              double h, double before) noexcept;
+
+} // namespace ode::sound

@@ -1,0 +1,237 @@
+#include "bridge/rigid_bodies.h"
+
+#include "bridge/blow.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ode::sound {
+namespace {
+
+/// A stone floor: what a body strikes that nobody has told of.
+constexpr Elastic kStone{30e9, 0.2};
+
+FramePose pose_of(dBodyID body, double time) {
+    const dReal *x = dBodyGetPosition(body), *q = dBodyGetQuaternion(body);
+    return {time, Vec3(x), Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
+}
+
+/// Mean curvature of a geom that has no mesh here [1/m].
+double curvature_of(dGeomID geom) {
+    if (!geom)
+        return 0.0;
+    dReal radius = 0.0, length = 0.0;
+    switch (dGeomGetClass(geom)) {
+    case dSphereClass:
+        return 1.0 / dGeomSphereGetRadius(geom);
+    case dCapsuleClass:
+        dGeomCapsuleGetParams(geom, &radius, &length);
+        return 0.5 / radius;
+    case dCylinderClass:
+        dGeomCylinderGetParams(geom, &radius, &length);
+        return 0.5 / radius;
+    default:
+        return 0.0;
+    }
+}
+
+/// Whether this contact is one of those that the body had lately; notes it.
+Acquaintance meet_again(RigidBody& body, const void* partner, const Vec3& local, const Vec3& world,
+                        double moved, double time, double step) {
+    const double radius = body.model->surface.radius();
+    const double near = std::max(5e-3, 0.25 * radius);
+    RigidBody::Known* found = nullptr;
+    for (RigidBody::Known& own : body.known)
+        if (own.partner == partner && own.seen < time &&
+            ((own.local - local).norm() < near || (own.world - world).norm() < near + moved)) {
+            if (!found || own.seen > found->seen)
+                found = &own;
+        }
+    if (!found) {
+        body.known.push_back({partner, local, world, time});
+        return Acquaintance::kNew;
+    }
+    const double since = time - found->seen;
+    *found = {partner, local, world, time};
+    constexpr double kSlack = 0.5; // steps, for rounding
+    return since <= (1.0 + kSlack) * step              ? Acquaintance::kLasting
+           : since <= (Blow::kFlutter + kSlack) * step ? Acquaintance::kParted
+                                                       : Acquaintance::kNew;
+}
+
+} // namespace
+
+RigidBodies::RigidBodies() : default_elastic_(kStone) {}
+
+RigidBodies::~RigidBodies() {
+    for (const auto& own : body_) {
+        dSoftRigidWatchDestroy(own->watch);
+        own->body = nullptr;
+    }
+}
+
+std::shared_ptr<RigidBody> RigidBodies::add(dBodyID body, std::shared_ptr<const RigidModel> model) {
+    auto made = std::make_shared<RigidBody>();
+    made->body = body;
+    made->watch = dSoftRigidWatchCreate(body);
+    made->push.assign(model->omega.size(), 0.0f);
+    made->model = std::move(model);
+    made->known.reserve(32);
+    body_.push_back(made);
+    list();
+    return made;
+}
+
+void RigidBodies::remove(RigidBody& body, Scene& scene) noexcept {
+    scene.end_body(&body);
+    dSoftRigidWatchDestroy(body.watch);
+    body.body = nullptr;
+    std::erase_if(body_, [&](const auto& own) { return own.get() == &body; });
+    list();
+}
+
+void RigidBodies::list() {
+    order_.clear();
+    for (std::size_t i = 0; i < body_.size(); ++i)
+        order_.emplace_back(body_[i]->body, i);
+    std::sort(order_.begin(), order_.end());
+}
+
+RigidBody* RigidBodies::find(dBodyID body) const noexcept {
+    const auto at = std::lower_bound(order_.begin(), order_.end(), std::pair(body, std::size_t{}));
+    return at != order_.end() && at->first == body ? body_[at->second].get() : nullptr;
+}
+
+void RigidBodies::set_elastic(dGeomID geom, const Elastic& elastic) {
+    if (geom)
+        elastic_[geom] = elastic;
+    else
+        default_elastic_ = elastic;
+}
+
+void RigidBodies::begin_step(dSoftWorldID world, double time, Scene& scene) {
+    begin_ = time;
+    for (std::size_t i = body_.size(); i-- > 0;)
+        if (dSoftRigidWatchIsGone(body_[i]->watch))
+            remove(*body_[i], scene);
+    touches_.begin_step();
+    for (std::size_t i = 0; i < body_.size(); ++i) {
+        RigidBody& own = *body_[i];
+        own.before = pose_of(own.body, time);
+        touches_.gather(world, own.body, [&](dBodyID other) {
+            const auto at =
+                std::lower_bound(order_.begin(), order_.end(), std::pair(other, std::size_t{}));
+            return at != order_.end() && at->first == other && at->second < i;
+        });
+    }
+}
+
+StruckVoice& RigidBodies::voice(const RigidBody& body, Scene& scene, RigidModels& models) const {
+    if (StruckVoice* found = scene.find_struck(&body))
+        return *found;
+    return scene.add_struck(&body, models.voice(body.model, scene.settings()));
+}
+
+void RigidBodies::strike(RigidBody& body, const Vec3& point, const Vec3& impulse, double contact,
+                         double time, Scene& scene, RigidModels& models) const {
+    const RigidMotion motion(body.body);
+    const StruckSurface& surface = body.model->surface;
+    const Vec3 along = motion.into_frame(impulse);
+    std::fill(body.push.begin(), body.push.end(), 0.0f);
+    const auto place = surface.nearest(motion.place_in_frame(point), -along);
+    surface.project(place, along, body.push);
+    voice(body, scene, models).strike(time, contact, body.push, motion.jerk(place.point, along));
+}
+
+bool RigidBodies::locate(RigidTouch& touch) const noexcept {
+    if (touch.located)
+        return true;
+    // The line of force, from force and torque; a contact gives no torque about itself.
+    const bool first = find(touch.body[0]) != nullptr;
+    const RigidBody* body = first ? find(touch.body[0]) : find(touch.body[1]);
+    const RigidMotion& motion = touch.motion[first ? 0 : 1];
+    const Vec3 force = first ? touch.impulse : Vec3(-touch.impulse);
+    const double square = force.squaredNorm();
+    if (!body || !(square > 0.0))
+        return false;
+    const Vec3 arm = force.cross(first ? touch.turning : touch.second_turning) / square;
+    const auto place =
+        body->model->surface.entered(motion.into_frame(arm), motion.into_frame(force));
+    touch.position = motion.center + motion.turn * place.point;
+    touch.normal = touch.impulse.normalized();
+    touch.depth = 0.0;
+    return true;
+}
+
+void RigidBodies::meet(RigidTouch& touch, double h, Scene& scene, RigidModels& models) {
+    if (!locate(touch))
+        return;
+    if (touch.impulse.dot(touch.normal) < 0.0)
+        touch.normal = -touch.normal;
+    RigidBody* side[2] = {find(touch.body[0]), touch.body[1] ? find(touch.body[1]) : nullptr};
+    RigidBody& own = *(side[0] ? side[0] : side[1]);
+    const int mine = side[0] ? 0 : 1;
+    const void* partner = touch.geom[1 - mine] ? static_cast<const void*>(touch.geom[1 - mine])
+                                               : touch.body[1 - mine];
+    const double moved = h * (touch.motion[mine].velocity_at(touch.position).norm());
+    const Acquaintance acquaintance =
+        meet_again(own, partner, touch.motion[mine].place_in_frame(touch.position), touch.position,
+                   moved, begin_, std::max(before_, h));
+    const std::optional<Blow> blow = find_blow(touch, acquaintance, begin_, h, before_);
+    if (!blow)
+        return;
+    StruckSurface::Place place[2];
+    Elastic elastic[2];
+    double curvature = 0.0, reach = 0.0;
+    for (int i = 0; i < 2; ++i) {
+        if (side[i]) {
+            const StruckSurface& surface = side[i]->model->surface;
+            const RigidMotion& motion = touch.motion[i];
+            place[i] =
+                surface.nearest(motion.place_in_frame(touch.position),
+                                motion.into_frame(i == 0 ? Vec3(-touch.normal) : touch.normal));
+            elastic[i] = side[i]->model->elastic;
+            curvature += surface.curvature(place[i]);
+            reach = std::max(reach, surface.radius());
+        } else {
+            const auto told = elastic_.find(touch.geom[i]);
+            elastic[i] = told != elastic_.end() ? told->second : default_elastic_;
+            curvature += curvature_of(touch.geom[i]);
+        }
+    }
+    // Faces that lie flat on one another bulge by something: as a ball ten times their size.
+    curvature = std::max(curvature, 0.1 / reach);
+    const double pressed =
+        contact_time(blow->mass, curvature, contact_modulus(elastic[0], elastic[1]), blow->speed);
+    const double duration = blow->goes_on ? std::max(pressed, 2.0 * h) : pressed;
+    for (int i = 0; i < 2; ++i) {
+        if (!side[i])
+            continue;
+        ++side[i]->blows;
+        const Vec3 impulse =
+            touch.motion[i].into_frame(i == 0 ? blow->impulse : Vec3(-blow->impulse));
+        std::fill(side[i]->push.begin(), side[i]->push.end(), 0.0f);
+        side[i]->model->surface.project(place[i], impulse, side[i]->push);
+        voice(*side[i], scene, models)
+            .strike(blow->time, duration, side[i]->push,
+                    touch.motion[i].jerk(touch.motion[i].place_in_frame(touch.position), impulse));
+    }
+}
+
+void RigidBodies::end_step(double time, Scene& scene, RigidModels& models) {
+    const double h = time - begin_;
+    touches_.read(h);
+    for (const auto& own : body_)
+        voice(*own, scene, models);
+    for (RigidTouch& touch : touches_.all())
+        meet(touch, h, scene, models);
+    for (const auto& own : body_)
+        std::erase_if(own->known, [&](const RigidBody::Known& known) {
+            return begin_ - known.seen > (Blow::kFlutter + 1.0) * std::max(h, before_);
+        });
+    scene.advance_struck(
+        [](const void* key) { return static_cast<const RigidBody*>(key)->before; });
+    before_ = h;
+}
+
+} // namespace ode::sound

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "bridge/rigid_model.h"
+#include "bridge/rigid_touch.h"
+#include "mix/scene.h"
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace ode::sound {
+
+/// A rigid body that sounds.
+struct RigidBody {
+    dBodyID body; ///< null once it has ended
+    dSoftRigidWatchID watch;
+    std::shared_ptr<const RigidModel> model;
+    FramePose before; ///< when the present step began
+
+    /// Where it touched something lately, so that what rests is not heard to strike again and
+    /// again.
+    struct Known {
+        const void* partner; ///< geom or body; null: the ground
+        Vec3 local;          ///< in the body's frame [m]
+        Vec3 world;          ///< [m]
+        double seen;         ///< [s]
+    };
+    std::vector<Known> known;
+    std::vector<float> push; ///< scratch, one a mode
+    unsigned long blows = 0; ///< that it got
+};
+
+/// Rigid bodies that sound, and the blows that ODE's contact joints deal them.
+///
+/// Voices lag a step behind: ODE finds a contact when bodies overlap already, so that the blow fell
+/// in the step before, at a time that depth and closing speed tell.
+class RigidBodies {
+public:
+    RigidBodies();
+    ~RigidBodies();
+    RigidBodies(const RigidBodies&) = delete;
+    RigidBodies& operator=(const RigidBodies&) = delete;
+
+    std::shared_ptr<RigidBody> add(dBodyID body, std::shared_ptr<const RigidModel> model);
+    void remove(RigidBody& body, Scene& scene) noexcept;
+    bool has(dBodyID body) const noexcept { return find(body) != nullptr; }
+    bool empty() const noexcept { return body_.empty(); }
+
+    /// What geoms without a voice are made of. @param geom  null: all not told of.
+    void set_elastic(dGeomID geom, const Elastic& elastic);
+
+    /// Before ODE's step, from `time` on. @param scene  takes the voices of bodies that have ended.
+    void begin_step(dSoftWorldID world, double time, Scene& scene);
+    /// After ODE's step to `time`: blows are dealt, and voices advanced to the time when the step
+    /// began.
+    void end_step(double time, Scene& scene, RigidModels& models);
+
+    /// World frame; `time` is now [s].
+    void strike(RigidBody& body, const Vec3& point, const Vec3& impulse, double contact,
+                double time, Scene& scene, RigidModels& models) const;
+
+    StruckVoice& voice(const RigidBody& body, Scene& scene, RigidModels& models) const;
+
+private:
+    void list();
+    RigidBody* find(dBodyID body) const noexcept;
+    void meet(RigidTouch& touch, double h, Scene& scene, RigidModels& models);
+    bool locate(RigidTouch& touch) const noexcept;
+
+    std::vector<std::shared_ptr<RigidBody>> body_;
+    std::vector<std::pair<dBodyID, std::size_t>> order_; ///< by address; index in body_
+    std::map<dGeomID, Elastic> elastic_;
+    Elastic default_elastic_;
+    RigidTouches touches_;
+    double begin_ = 0.0;  ///< of the present step [s]
+    double before_ = 0.0; ///< length of the step before [s]
+};
+
+} // namespace ode::sound

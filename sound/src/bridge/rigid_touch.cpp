@@ -1,0 +1,59 @@
+#include "bridge/rigid_touch.h"
+
+#include <utility>
+
+namespace ode::sound {
+
+void RigidTouches::begin_step() noexcept {
+    touch_.clear();
+    used_ = 0;
+}
+
+void RigidTouches::add(dSoftWorldID world, dJointID joint) {
+    RigidTouch touch{};
+    touch.joint = joint;
+    // ODE gives the forces of a joint on the ground to the body that it has, as the first.
+    for (int i = 0; i < 2; ++i)
+        touch.body[i] = dJointGetBody(joint, i);
+    if (!touch.body[0])
+        std::swap(touch.body[0], touch.body[1]);
+    touch.motion[0] = RigidMotion(touch.body[0]);
+    touch.motion[1] = RigidMotion(touch.body[1]);
+    dSoftRigidContact made{};
+    made.struct_size = sizeof made;
+    touch.located = dSoftWorldGetRigidContact(world, joint, &made) != 0;
+    touch.friction = -1.0;
+    if (touch.located) {
+        touch.position = Vec3(made.position);
+        touch.normal = Vec3(made.normal);
+        touch.depth = made.depth;
+        touch.friction = made.friction;
+        const bool crossed = made.geom[0] && dGeomGetBody(made.geom[0]) != touch.body[0];
+        touch.geom[0] = made.geom[crossed];
+        touch.geom[1] = made.geom[!crossed];
+        if (crossed)
+            touch.normal = -touch.normal;
+    }
+    touch.feedback = dJointGetFeedback(joint);
+    touch.ours = !touch.feedback;
+    if (touch.ours) {
+        if (used_ == feedback_.size())
+            feedback_.emplace_back();
+        touch.feedback = &feedback_[used_++];
+        dJointSetFeedback(joint, touch.feedback);
+    }
+    *touch.feedback = {}; // of a body asleep ODE leaves it as it is
+    touch_.push_back(touch);
+}
+
+void RigidTouches::read(double h) noexcept {
+    for (RigidTouch& touch : touch_) {
+        touch.impulse = h * Vec3(touch.feedback->f1);
+        touch.turning = h * Vec3(touch.feedback->t1);
+        touch.second_turning = h * Vec3(touch.feedback->t2);
+        if (touch.ours)
+            dJointSetFeedback(touch.joint, nullptr);
+    }
+}
+
+} // namespace ode::sound

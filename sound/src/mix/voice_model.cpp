@@ -1,0 +1,88 @@
+#include "mix/voice_model.h"
+
+#include "source/node_rule.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace ode::sound {
+namespace {
+
+void find_levels(StruckVoiceModel& model) {
+    const std::size_t n = model.omega.size();
+    model.level.assign(n, 0.0);
+    std::vector<ModeGain> gain(n);
+    std::vector<double> scratch(model.table.scratch_size());
+    const double distance = 1.0 + model.table.near_limit(); // [m]
+    for (int side = 0; side < 6; ++side) {
+        Vec3 way = Vec3::Zero();
+        way[side / 2] = side % 2 == 0 ? distance : -distance;
+        model.table.gains(model.table.centre + way, gain, scratch);
+        for (std::size_t k = 0; k < n; ++k)
+            model.level[k] +=
+                (std::pow(static_cast<double>(gain[k].acceleration), 2) +
+                 std::pow(static_cast<double>(gain[k].velocity) / model.omega[k], 2)) *
+                distance * distance / 6.0;
+    }
+    for (double& level : model.level)
+        level = std::sqrt(level);
+}
+
+} // namespace
+
+bool hears_modes(const Settings& settings) noexcept {
+    return settings.sampling == Sampling::kSinc && (settings.radiation == Radiation::kMonopole ||
+                                                    settings.radiation == Radiation::kKirchhoff ||
+                                                    settings.radiation == Radiation::kTransfer);
+}
+
+std::shared_ptr<const StruckVoiceModel> make_voice_model(std::span<const double> omega,
+                                                         std::span<const double> decay,
+                                                         const BoundaryMesh& mesh,
+                                                         std::span<const double> shape,
+                                                         const Settings& settings) {
+    auto model = std::make_shared<StruckVoiceModel>();
+    model->omega.assign(omega.begin(), omega.end());
+    model->decay.assign(decay.begin(), decay.end());
+    const Air& air = settings.air;
+    if (!omega.empty()) {
+        ModalSurface surface;
+        surface.mesh = mesh;
+        surface.shape.assign(shape.begin(), shape.end());
+        for (const double w : omega)
+            surface.frequency.push_back(w / (2.0 * std::numbers::pi));
+        if (settings.radiation == Radiation::kTransfer) {
+            TransferOptions options;
+            options.density = air.density;
+            options.speed = air.speed;
+            model->table = make_transfer_table(surface, options);
+        } else {
+            const Leaning leaning =
+                hears_modes(settings) ? radiation_leaning(settings.radiation) : Leaning::kCarried;
+            model->table = node_table(surface, leaning, air, settings.send_rate());
+        }
+    } else {
+        model->table.centre = mesh.centre();
+        model->table.radius = mesh.radius(model->table.centre);
+        model->table.speed = air.speed;
+    }
+    model->rigid = rigid_sound(mesh, Vec3::Zero(), air);
+    find_levels(*model);
+    return model;
+}
+
+SurfaceNumbers::SurfaceNumbers(std::span<const int> given, std::size_t nodes) {
+    std::vector<int> own(nodes, -1);
+    triangle.resize(given.size() / 3);
+    for (std::size_t t = 0; t < triangle.size(); ++t)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const auto n = static_cast<std::size_t>(given[3 * t + c]);
+            if (own[n] < 0) {
+                own[n] = static_cast<int>(node.size());
+                node.push_back(static_cast<int>(n));
+            }
+            triangle[t][c] = own[n];
+        }
+}
+
+} // namespace ode::sound

@@ -1,0 +1,86 @@
+#pragma once
+
+#include "source/modal_voice.h"
+#include "source/rigid_way.h"
+
+#include <Eigen/Geometry>
+
+#include <array>
+
+namespace ode::sound {
+
+/// Where the frame of a rigid body is.
+struct FramePose {
+    double time = 0.0;          ///< [s]
+    Vec3 center = Vec3::Zero(); ///< [m]
+    Eigen::Quaterniond turn{1.0, 0.0, 0.0, 0.0};
+};
+
+/// What rigid bodies of one shape and material share of their sound.
+struct StruckVoiceModel : ModalVoiceModel {
+    /// Of each mode: pressure at 1 m per unit of its acceleration, mean square of six directions
+    /// [Pa s^2 / (kg^1/2 m)].
+    std::vector<double> level;
+};
+
+/// The sound of a rigid body that blows set ringing: its modes by exact recurrence, driven by
+/// impulses spread over contact times; and by how these jerk the body as a whole (RigidSound),
+/// which is all that is heard of one too small or too stiff to ring.
+///
+/// A force is told to the recurrence by what it gives within half a sample of each sample, so that
+/// its impulse is exact; that this smooths its spectrum by sinc(w dt / 2) is made good at each
+/// mode's own frequency. Modes that nobody could hear any more stand still. A step allocates
+/// nothing.
+class StruckVoice {
+public:
+    static constexpr std::size_t kMostPulses = 24; ///< at a time; a further one cuts the oldest off
+    static constexpr double kInaudible = 2e-6;     ///< [Pa] at 1 m: 20 dB below hearing
+
+    /// @param rate  of the grid [Hz].
+    StruckVoice(std::shared_ptr<const StruckVoiceModel> model, double rate);
+
+    /// A blow that begins at `time` [s] and lasts `duration` [s]. What lies before the samples
+    /// given off already comes at once.
+    /// @param push  of each mode: its shape at the point times the impulse [kg^1/2 m/s].
+    /// @param jerk  by how much the body's velocity and spin change, in its frame.
+    void strike(double time, double duration, std::span<const float> push,
+                const RigidSound::Six& jerk) noexcept;
+
+    /// Gives off all samples from the last pose to this one.
+    void advance(const FramePose& pose, BlockSink& out);
+    /// Falls silent within ModalVoice::kFadeTime.
+    void finish(BlockSink& out);
+
+    bool is_silent() const noexcept { return active_ == 0 && pulses_ == 0 && !jerked_; }
+    const StruckVoiceModel& model() const noexcept { return *model_; }
+    double energy() const noexcept; ///< of all modes [J]
+
+private:
+    struct Pulse {
+        double begin = 0.0, duration = 0.0; ///< [s]
+        double given = 0.0;                 ///< share of the impulse
+        std::vector<float> push;
+        RigidSound::Six jerk;
+    };
+
+    void run(std::int64_t last, const FramePose& to, bool fading, BlockSink& out);
+    void press(std::int64_t sample) noexcept;
+    void settle() noexcept;
+
+    std::shared_ptr<const StruckVoiceModel> model_;
+    double rate_;
+    Resonators resonators_;
+    AlignedVector amplitude_, rate_of_;
+    std::vector<float> sent_amplitude_, sent_rate_;
+    std::array<Pulse, kMostPulses> pulse_; ///< pulses_ of them, the oldest first
+    std::size_t pulses_ = 0;
+    std::size_t active_ = 0; ///< modes from the lowest on that may be heard
+    bool jerked_ = false;    ///< the body as a whole is heard
+    RigidWay way_;
+    RigidSound::Six velocity_ = RigidSound::Six::Zero(); ///< that blows gave the body lately
+    bool begun_ = false;
+    FramePose pose_;        ///< at the last call
+    std::int64_t done_ = 0; ///< last sample given off
+};
+
+} // namespace ode::sound

@@ -1,0 +1,51 @@
+#include "strike/pulse.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace ode::sound {
+namespace {
+
+constexpr std::size_t kCells = 256;
+
+/// The integral at the ends of cells, and the force there: enough for a cubic in each.
+struct Table {
+    std::array<double, kCells + 1> share{}, force{};
+
+    Table() {
+        constexpr int kFine = 64; // midpoints a cell: exact to 1e-9
+        const auto course = [](double u) { return std::pow(std::sin(std::numbers::pi * u), 1.5); };
+        for (std::size_t c = 0; c < kCells; ++c) {
+            double sum = 0.0;
+            for (int i = 0; i < kFine; ++i)
+                sum += course((static_cast<double>(c) + (i + 0.5) / kFine) / kCells);
+            share[c + 1] = share[c] + sum / (kFine * static_cast<double>(kCells));
+        }
+        const double all = share[kCells];
+        for (std::size_t c = 0; c <= kCells; ++c) {
+            share[c] /= all;
+            force[c] = course(std::fmin(1.0, static_cast<double>(c) / kCells)) / all;
+        }
+        force[kCells] = 0.0; // sin(pi) is not quite
+    }
+};
+
+} // namespace
+
+double pulse_share(double u) noexcept {
+    static const Table table;
+    if (!(u > 0.0))
+        return 0.0;
+    if (u >= 1.0)
+        return 1.0;
+    const double place = u * kCells;
+    const auto c = static_cast<std::size_t>(place);
+    const double t = place - static_cast<double>(c), h = 1.0 / kCells;
+    const double a = table.share[c], b = table.share[c + 1];
+    const double da = h * table.force[c], db = h * table.force[c + 1];
+    return a + t * (da + t * (3.0 * (b - a) - 2.0 * da - db + t * (2.0 * (a - b) + da + db)));
+}
+
+} // namespace ode::sound

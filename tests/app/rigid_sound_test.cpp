@@ -1,0 +1,203 @@
+// Rigid bodies of ODE that sound when contact joints strike them, through the public functions.
+#include "support/rigid_ring.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <complex>
+#include <cstdarg>
+#include <cstdio>
+#include <numbers>
+#include <string>
+
+namespace {
+
+using namespace ode;
+using test::RigidRing;
+
+double peak(const std::vector<double>& p, double from = 0, double to = 1e9) {
+    double most = 0;
+    for (std::size_t i = static_cast<std::size_t>(from * RigidRing::kRate);
+         i < p.size() && static_cast<double>(i) < to * RigidRing::kRate; ++i)
+        most = std::max(most, std::fabs(p[i]));
+    return most;
+}
+
+/// Amplitude of a frequency in the stretch from `from` to `to` [s], Hann window.
+double line(const std::vector<double>& p, double f, double from, double to) {
+    std::complex<double> sum = 0;
+    const auto first = static_cast<std::size_t>(from * RigidRing::kRate);
+    const auto count = static_cast<std::size_t>((to - from) * RigidRing::kRate);
+    for (std::size_t i = 0; i < count && first + i < p.size(); ++i) {
+        const double u = static_cast<double>(i) / static_cast<double>(count);
+        sum +=
+            p[first + i] * (1 - std::cos(2 * std::numbers::pi * u)) *
+            std::polar(1.0, -2 * std::numbers::pi * f * static_cast<double>(i) / RigidRing::kRate);
+    }
+    return 2 * std::abs(sum) / static_cast<double>(count);
+}
+
+double lowest_mode(dSoundModalID voice) {
+    dReal f = 0;
+    dSoundModalGetModes(voice, 1, &f, nullptr);
+    return f;
+}
+
+std::string& said() {
+    static std::string all;
+    return all;
+}
+void note(int, const char* text, va_list arguments) {
+    char line[1000];
+    std::vsnprintf(line, sizeof line, text, arguments);
+    said() += line;
+    said() += '\n';
+}
+
+using Step = int (*)(dWorldID, dReal);
+class RigidSound : public testing::TestWithParam<Step> {};
+INSTANTIATE_TEST_SUITE_P(Steps, RigidSound, testing::Values(dWorldStep, dWorldQuickStep),
+                         [](const auto& given) {
+                             return std::string(given.param == dWorldStep ? "Step" : "QuickStep");
+                         });
+
+// A bar that falls on a ball under its middle: the lowest bending
+// mode is heard, at its frequency.
+TEST_P(RigidSound, ABarRingsAtItsModeWhenItHasFallen) {
+    RigidRing app(-9.81);
+    app.bounce = 0.5;
+    dGeomSetPosition(dCreateSphere(app.space, 0.02), 0, 0, -0.02);
+    const RigidRing::Bar bar = app.add_bar(0, 0, 0.05);
+    ASSERT_TRUE(bar.voice);
+    for (int i = 0; i < 60; ++i)
+        app.step(0.004, GetParam());
+    EXPECT_GE(RigidRing::status(bar.voice).blows, 1u);
+    EXPECT_GT(RigidRing::status(bar.voice).energy, 0);
+    const double f = lowest_mode(bar.voice); // 2.5 kHz
+    app.sound.reset();
+    const std::vector<double> p = app.heard();
+    EXPECT_EQ(peak(p, 0, 0.085), 0) << "sqrt(2 * 0.04 / g) = 0.09 s of fall";
+    const double at = line(p, f, 0.11, 0.2);
+    EXPECT_GT(at, 0.01);
+    EXPECT_GT(at, 20 * line(p, 1.1 * f, 0.11, 0.2));
+}
+
+// What rests is not struck again and again; what rang dies away to nothing at all.
+TEST_P(RigidSound, ABarAtRestIsSilent) {
+    for (const double h : {0.001, 0.005, 0.016}) {
+        RigidRing app(-9.81);
+        dCreatePlane(app.space, 0, 0, 1, 0);
+        const RigidRing::Bar bar = app.add_bar(0, 0, 0.02);
+        for (int i = 0; i < 1.0 / h; ++i)
+            app.step(h, GetParam());
+        const unsigned long landed = RigidRing::status(bar.voice).blows;
+        EXPECT_GE(landed, 1u);
+        EXPECT_LE(landed, 12u) << h;
+        for (int i = 0; i < 4.0 / h; ++i)
+            app.step(h, GetParam());
+        EXPECT_EQ(RigidRing::status(bar.voice).blows, landed) << h;
+        EXPECT_EQ(peak(app.heard(), 4.5), 0) << h;
+    }
+}
+
+struct Hit {
+    double onset, level; ///< [s], [dB]
+};
+Hit thrown(double h) {
+    RigidRing app;
+    app.bounce = 0.6;
+    dGeomSetPosition(dCreateSphere(app.space, 0.02), 0.07, 0, -0.02 - 0.5 * RigidRing::kThick);
+    const RigidRing::Bar bar = app.add_bar(0, 0, 0.0777); // 77.7 ms
+    dBodySetLinearVel(bar.body, 0, 0, -1);
+    app.run(0.4, h);
+    const std::vector<double> p = app.heard();
+    const double most = peak(p);
+    std::size_t first = 0;
+    while (first < p.size() && std::fabs(p[first]) < 0.1 * most)
+        ++first;
+    return {static_cast<double>(first) / RigidRing::kRate,
+            20 * std::log10(line(p, lowest_mode(bar.voice), 0.12, 0.3))};
+}
+
+// The same blow whatever ODE's step.
+TEST(RigidRing, HearsNoDifferenceBetweenStepsOf1And5And16Milliseconds) {
+    const Hit fine = thrown(0.001);
+    EXPECT_NEAR(fine.onset, 0.0777 + 1.0 / 343, 5e-4);
+    for (const double h : {0.0005, 0.005, 0.016, 0.02}) {
+        const Hit hit = thrown(h);
+        std::printf("step %.1f ms: %+.3f ms, %+.2f dB\n", 1e3 * h, 1e3 * (hit.onset - fine.onset),
+                    hit.level - fine.level);
+        EXPECT_NEAR(hit.onset, fine.onset, 1e-3);
+        EXPECT_NEAR(hit.level, fine.level, 1.0);
+    }
+}
+
+// The application's own feedback is read, not replaced.
+TEST(RigidRing, LeavesTheApplicationsFeedbackAlone) {
+    RigidRing app(-9.81);
+    dJointFeedback own{};
+    app.feedback = &own;
+    dCreatePlane(app.space, 0, 0, 1, 0);
+    const RigidRing::Bar bar = app.add_bar(0, 0, 0.0101);
+    dBodySetLinearVel(bar.body, 0, 0, -0.5);
+    double most = 0;
+    for (int i = 0; i < 20; ++i) {
+        app.step(0.002);
+        most = std::max(most, own.f1[2]);
+    }
+    EXPECT_GT(most, 1);
+    EXPECT_GE(RigidRing::status(bar.voice).blows, 1u);
+}
+
+// Two bodies' sound is the sum of each alone.
+TEST(RigidRing, SuperposesBodies) {
+    const auto run = [](bool left, bool right) {
+        RigidRing app;
+        const RigidRing::Bar a = app.add_bar(0, 0.3, 0), b = app.add_bar(0, -0.3, 0.1);
+        app.step(0.005);
+        const dVector3 at[2] = {{0.08, 0.3, 0}, {-0.03, -0.3, 0.1}}, blow = {0, 0, 0.01};
+        if (left)
+            dSoundModalStrike(a.voice, at[0], blow, 1e-4);
+        if (right)
+            dSoundModalStrike(b.voice, at[1], blow, 2e-4);
+        app.run(0.1, 0.005);
+        return app.heard();
+    };
+    const std::vector<double> both = run(true, true), a = run(true, false), b = run(false, true);
+    ASSERT_GT(peak(a), 1e-4);
+    double off = 0;
+    for (std::size_t i = 0; i < both.size(); ++i)
+        off = std::max(off, std::fabs(both[i] - a[i] - b[i]));
+    EXPECT_LT(off, 1e-6 * peak(both)); // the sink's floats
+}
+
+TEST(RigidRing, EndsWithItsBodyAndItsWorld) {
+    RigidRing app(-9.81);
+    const RigidRing::Bar bar = app.add_bar(0, 0, 1), other = app.add_bar(0, 1, 1);
+    app.step(0.005);
+    const dVector3 at = {0.05, 0, 1}, blow = {0, 0, 0.01};
+    dSoundModalStrike(bar.voice, at, blow, 1e-4);
+    app.run(0.02, 0.005);
+    dBodyDestroy(bar.body);
+    app.run(0.02, 0.005);
+    EXPECT_EQ(dSoundModalGetBody(bar.voice), nullptr);
+    dSoundModalDestroy(bar.voice);
+    dSoundModalDestroy(other.voice);
+    app.run(0.05, 0.005);
+    EXPECT_EQ(peak(app.heard(), 0.06), 0) << "faded within 5 ms, 3 ms on the way";
+}
+
+TEST(RigidRing, NeedsSomebodyWhoListensToItsWorld) {
+    test::OdeApp app;
+    const soft::WorldHandle soft(dSoftWorldCreate(app.world, app.space));
+    const dBodyID body = app.add_sphere(0.1, 1, 0);
+    const soft::MeshHandle mesh(dSoftMeshCreateSphere(0.1, 1));
+    const dSoftSolid steel = dSoftSolidDefault();
+    said().clear();
+    dSetMessageHandler(note);
+    EXPECT_EQ(dSoundModalCreate(body, mesh, &steel), nullptr);
+    dSetMessageHandler(nullptr);
+    EXPECT_NE(said().find("dSoundWorldCreate() first"), std::string::npos) << said();
+}
+
+} // namespace

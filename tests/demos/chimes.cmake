@@ -1,0 +1,20 @@
+# One tube of the chimes in the wind.
+cmake_minimum_required(VERSION 3.25)
+include(${CMAKE_CURRENT_LIST_DIR}/command.cmake)
+
+must_succeed(demo chimes --tubes 1 --gust 5 --seconds 4 --quiet)
+file(READ ${work}/chimes.json out)
+# Tuned by theory, rung by the solid: at most 3 cents apart in four partials.
+expect_between(523 523.5 tubes 0 partials 0)
+foreach(k 0 1 2 3)
+    expect_between(-3 3 tubes 0 cents ${k})
+endforeach()
+expect_between(1 200 tubes 0 blows)
+expect_between(40 120 peak_db_spl)
+foreach(file chimes.wav chimes.png)
+    if(NOT EXISTS ${work}/${file})
+        message(SEND_ERROR "no ${file}")
+    endif()
+endforeach()
+must_succeed(demo chimes --help)
+expect_says("${out}" "Timoshenko")
