@@ -12,6 +12,7 @@ namespace {
 // as fast as the fastest is now, free bodies may accelerate by kAcceleration.
 constexpr double kHaste = 4;
 constexpr double kAcceleration = 1000; ///< [m/s^2]
+constexpr double kLeastReach = 0.01;   ///< [mean edges]
 // A blow is over when some looks have seen none.
 constexpr double kFading = 0.8;
 
@@ -31,7 +32,10 @@ Vec3 inward_at(const SurfaceNodes& surface, const NodeArray& position, std::size
 void NodeContact::find_candidates(const NodeArray& position, const NodeArray& velocity,
                                   const RigidMotion& motion) noexcept {
     const Pose pose = shape_.pose.in(motion.pose);
-    const double reach = reach_ * nodes_.mean_edge;
+    const double most = kReach * nodes_.mean_edge;
+    const double least = kLeastReach * nodes_.mean_edge;
+    const double reach =
+        horizon_ > 0 ? std::fmin(most, std::fmax(least, kHaste * fastest_ * horizon_)) : most;
     double nearest = std::numeric_limits<double>::infinity(); // of those left out
     double closest = nearest;                                 // of all
     double fastest2 = 0;
@@ -44,11 +48,13 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
         const SurfaceDistance there = shape_.distance(pose.to_local(x));
         const double distance = there.distance;
         closest = std::fmin(closest, distance);
-        if (distance < reach) {
+        // A bulge may touch before its node does.
+        const double stands_out = horizon_ > 0 && has_pole(i) ? nodes_.shape.highest : 0;
+        if (distance < reach + stands_out) {
             candidate_.push_back(static_cast<int>(i));
             closing_ = std::fmax(closing_, -slip.dot(pose.rotation * there.normal));
         } else
-            nearest = std::fmin(nearest, distance);
+            nearest = std::fmin(nearest, distance - stands_out);
     }
     // A triangle within reach of a sample has a corner not farther than an edge more.
     if (closest < reach + 2 * nodes_.mean_edge) {
@@ -62,11 +68,11 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
     // sees.
     const double span =
         shape_.kind == ShapeKind::convex ? samples_.reach() : shape_.size.norm() + shape_.size.x();
-    const double fastest = std::sqrt(fastest2) + motion.spin.norm() * span;
-    look_again_in_ = time_to_cross(nearest, fastest);
+    fastest_ = std::sqrt(fastest2) + motion.spin.norm() * span;
+    look_again_in_ = time_to_cross(nearest, fastest_);
     const double gap = closest - nodes_.shape.highest;
     if (gap > 0 && !samples_.is_near())
-        quiet_in_ = time_to_cross(gap, fastest);
+        quiet_in_ = time_to_cross(gap, fastest_);
 }
 
 double NodeContact::time_to_cross(double gap, double fastest) noexcept {

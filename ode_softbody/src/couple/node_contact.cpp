@@ -195,6 +195,8 @@ void NodeContact::collect_nodes(std::vector<int>& out) const {
     for (const int i : candidate_) {
         const int node = nodes_.node[index(i)];
         out.push_back(node);
+        if (!has_pole(index(i)))
+            continue;
         for (const int t : nodes_.fan(node))
             out.insert(out.end(), nodes_.triangle[index(t)].begin(),
                        nodes_.triangle[index(t)].end());

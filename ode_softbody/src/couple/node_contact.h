@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -66,11 +67,12 @@ public:
     unsigned long look(const NodeArray& position, const NodeArray& velocity,
                        const RigidShadow& rigid) noexcept;
     void look_soon() noexcept { look_again_in_ = 0; }
-    /// For so long no node can touch the shape, and pass() may stand for find() [s].
-    /// How fast candidates come at the shape, at the last look [m/s].
+    /// How fast candidates come at the shape, at the last looks [m/s].
     double closing_speed() const noexcept { return closing_; }
-    /// How near a node is a candidate [mean edges]: the nearer, the fewer, and the more looks.
-    void set_reach(double edges) noexcept { reach_ = edges; }
+    /// Nodes that may get in within such a time are candidates: the shorter, the fewer, and the
+    /// more looks. 0: those that are near [s].
+    void set_horizon(double time) noexcept { horizon_ = time; }
+    /// For so long no node can touch the shape, and pass() may stand for find() [s].
     double quiet_for() const noexcept { return bearing_ == 0 ? quiet_in_ : 0; }
     void pass(double dt) noexcept;
     /// The mesh nodes whose motion find() and what follows ask for until the next look; some more
@@ -122,6 +124,10 @@ private:
     RigidShape known_shape(const RigidShape& shape);
     void prepare_points();
 
+    /// Whether its bulge, not the node, meets the shape.
+    bool has_pole(std::size_t node) const noexcept {
+        return !recess_.empty() && shape_.kind != ShapeKind::sphere && nodes_.shape.bulges(node);
+    }
     static double time_to_cross(double gap, double fastest) noexcept; ///< at least [s]
 
     /// A node inside the shape.
@@ -187,8 +193,9 @@ private:
     std::span<const double> inverse_mass_; ///< of every mesh node [1/kg]; borrowed for the step
     double look_again_in_ = 0;             ///< [s]
     double closing_ = 0;                   ///< [m/s]
-    double reach_ = kReach;                ///< [mean edges]
-    double quiet_in_ = 0;                  ///< nothing can touch for so long [s]
+    double fastest_ = std::numeric_limits<double>::infinity(); ///< at the last look [m/s]
+    double horizon_ = 0;  ///< candidates may get in within it; 0: are within kReach [s]
+    double quiet_in_ = 0; ///< nothing can touch for so long [s]
     std::size_t bearing_ = 0;
     double softening_ = 1; ///< in the last substep
     struct Memory {

@@ -107,7 +107,7 @@ void RigidExchange::look_ahead(bool first) noexcept {
     // Nodes near a shape but not in it need no look at every substep.
     constexpr int kPatience = 16;
     // Each candidate's motion is summed from modes at every substep: the fewer the better.
-    constexpr double kReach = 0.15; ///< [mean edges]; bulges stand out by less than 0.1
+    constexpr double kHorizon = 1e-4; ///< [s]
     const auto each = [&](auto visit) {
         for (Contact& contact : contact_)
             if (contact.body->rings())
@@ -123,7 +123,7 @@ void RigidExchange::look_ahead(bool first) noexcept {
         if (!contact.law->is_look_due())
             return;
         modes.place_surface_roughly();
-        contact.law->set_reach(kReach);
+        contact.law->set_horizon(kHorizon);
         contact.law->look(contact.body->state_.position, contact.body->state_.velocity,
                           shadow_[contact.shadow]);
         looked = true;
