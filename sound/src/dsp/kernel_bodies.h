@@ -217,14 +217,14 @@ inline void store_floats(float* p, const Floats& v) { *reinterpret_cast<LooseFlo
 
 /// kGroups registers of oscillators at a time: each waits for itself, several fill the wait.
 template <int kGroups>
-inline void ring_groups(int columns, int samples, const float* step, float* q, float* v,
+inline void ring_groups(int columns, int samples, const float* step, int stride, float* q, float* v,
                         float* q_rows, float* v_rows) {
     Floats a[kGroups], b[kGroups], c[kGroups], d[kGroups], x[kGroups], y[kGroups];
     for (int g = 0; g < kGroups; ++g) {
         a[g] = load_floats(step + g * kFloats);
-        b[g] = load_floats(step + columns + g * kFloats);
-        c[g] = load_floats(step + 2 * columns + g * kFloats);
-        d[g] = load_floats(step + 3 * columns + g * kFloats);
+        b[g] = load_floats(step + stride + g * kFloats);
+        c[g] = load_floats(step + 2 * stride + g * kFloats);
+        d[g] = load_floats(step + 3 * stride + g * kFloats);
         x[g] = load_floats(q + g * kFloats);
         y[g] = load_floats(v + g * kFloats);
     }
@@ -242,8 +242,8 @@ inline void ring_groups(int columns, int samples, const float* step, float* q, f
     }
 }
 
-void ring(int columns, int samples, const float* step, float* q, float* v, float* q_rows,
-          float* v_rows) {
+void ring(int columns, int samples, const float* step, int stride, float* q, float* v,
+          float* q_rows, float* v_rows) {
 #if defined(__AVX512F__)
     constexpr int kMost = 4; // 24 of 32 registers
 #else
@@ -251,9 +251,10 @@ void ring(int columns, int samples, const float* step, float* q, float* v, float
 #endif
     int k = 0;
     for (; k + kMost * kFloats <= columns; k += kMost * kFloats)
-        ring_groups<kMost>(columns, samples, step + k, q + k, v + k, q_rows + k, v_rows + k);
+        ring_groups<kMost>(columns, samples, step + k, stride, q + k, v + k, q_rows + k,
+                           v_rows + k);
     for (; k < columns; k += kFloats)
-        ring_groups<1>(columns, samples, step + k, q + k, v + k, q_rows + k, v_rows + k);
+        ring_groups<1>(columns, samples, step + k, stride, q + k, v + k, q_rows + k, v_rows + k);
 }
 
 /// Sum of all lanes, by halves.
@@ -435,6 +436,25 @@ double splat(const SplatSurface& surface, const SplatEar* ear, int ears) {
     return ears == 2 ? splat_to<kFacing, 2>(surface, ear) : splat_to<kFacing, 1>(surface, ear);
 }
 
+double splat_run(const SplatSurface& surface, const SplatEar& ear) {
+    Lane latest{};
+    Aim aims = aim(ear);
+    aims.origin += Bits{0, 1, 2, 3};
+    for (int i = 0; i < surface.nodes; i += 4) {
+        Arrivals a;
+        arrive<Facing::kAll>(surface, aims, i, latest, a);
+#pragma GCC unroll 4
+        for (int k = 0; k < 4; ++k)
+            put(ear.ring[k % SplatEar::kCopies] + a.cell[k], surface.table + a.row[k],
+                a.weight[0][k], a.weight[1][k]);
+        aims.origin += fill_bits(4);
+    }
+    double last = 0.0;
+    for (int k = 0; k < 4; ++k)
+        last = latest[k] > last ? latest[k] : last;
+    return last + surface.nodes;
+}
+
 } // namespace
 
 extern const Kernels kKernels;
@@ -450,6 +470,7 @@ const Kernels kKernels = {ODE_SOUND_ISA_NAME,
                           &ring,
                           &weigh,
                           {&splat<Facing::kAll>, &splat<Facing::kVisible>, &splat<Facing::kCosine>,
-                           &splat<Facing::kLeaning>}};
+                           &splat<Facing::kLeaning>},
+                          &splat_run};
 
 } // namespace ode::sound::ODE_SOUND_ISA_NAMESPACE

@@ -81,11 +81,11 @@ struct Kernels {
     void (*differences)(int nodes, const double* const row[8], double own[4], double next[4]);
 
     /// Oscillators over `samples` samples, each by q += a q + b v, v += c q + d v (both of the old
-    /// q and v): rows a, b, c, d of `step`. Changes are what is stored, so that floats keep slow
-    /// decays. @param q, v  state, left as after the last sample.
+    /// q and v): rows a, b, c, d of `step`, `stride` apart. Changes are what is stored, so that
+    /// floats keep slow decays. @param q, v  state, left as after the last sample.
     /// @param q_rows, v_rows  out: the state after each sample, a row each.
-    void (*ring)(int columns, int samples, const float* step, float* q, float* v, float* q_rows,
-                 float* v_rows);
+    void (*ring)(int columns, int samples, const float* step, int stride, float* q, float* v,
+                 float* q_rows, float* v_rows);
 
     /// out[e][s] = sum over the columns of by[e][0] q_rows[s] + by[e][1] v_rows[s], for e below
     /// `ears`, which is 1 or 2.
@@ -95,6 +95,11 @@ struct Kernels {
     /// Adds flow / distance of every node to the rings of the ears at the retarded time.
     /// @return largest delay that was not dropped [samples]; 0 if all were.
     double (*splat[4])(const SplatSurface& surface, const SplatEar* ear, int ears);
+
+    /// The same of one point at successive samples, the first at ear.sample: "nodes" are its
+    /// places, sample by sample, all round alike. @return largest delay, counted from the first
+    /// sample.
+    double (*splat_run)(const SplatSurface& surface, const SplatEar& ear);
 };
 
 /// The widest set that this processor runs, or the one that the environment variable ODE_SOUND_ISA

@@ -138,12 +138,17 @@ void Listener::send(const FlowBlock& block) noexcept {
         }
 }
 
-Listener::Voice& Listener::find_voice(const ModalBlock& block) {
-    for (Voice& own : voice_)
-        if (own.key == block.voice)
-            return own;
-    return voice_.emplace_back(
-        Voice{block.voice, {VoiceGains(*block.table), VoiceGains(*block.table)}});
+Listener::Voice& Listener::find_voice(const void* voice, const TransferTable& table) {
+    // Voices come in the same order at every step: the next one is the likely one.
+    for (std::size_t i = 0; i < voice_.size(); ++i) {
+        const std::size_t at = (hint_ + i) % voice_.size();
+        if (voice_[at].key == voice) {
+            hint_ = at;
+            return voice_[at];
+        }
+    }
+    hint_ = voice_.size();
+    return voice_.emplace_back(Voice{voice, {VoiceGains(table), VoiceGains(table)}});
 }
 
 void Listener::forget_voice(const void* voice) noexcept {
@@ -153,7 +158,7 @@ void Listener::forget_voice(const void* voice) noexcept {
 void Listener::send(const ModalBlock& block) {
     if (!ear_[0].path || !ear_[0].wave || block.gain == 0.0)
         return;
-    Voice& voice = find_voice(block);
+    Voice& voice = find_voice(block.voice, *block.table);
     // Modes sound from the table's centre, the body's motion as a whole from the near side of the
     // sphere that it is likened to; four points for the kernel's sake.
     constexpr int kPoints = 4;

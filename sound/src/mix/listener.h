@@ -46,6 +46,7 @@ public:
     void send(const FlowBlock& block) noexcept;
     void send(const FacetBlock& block) noexcept;
     void send(const ModalBlock& block); ///< allocates when a voice is first heard
+    void send(const ModalRun& run);     ///< likewise
     void forget_voice(const void* voice) noexcept;
 
     /// What this listener sees of a source; made at the first call.
@@ -104,7 +105,11 @@ private:
         const void* key;
         std::array<VoiceGains, kEars> gains;
     };
-    Voice& find_voice(const ModalBlock& block);
+    Voice& find_voice(const void* voice, const TransferTable& table);
+    /// @param heard  by the ear, without the distance. @param place, mach  of the ear [m], and its
+    /// velocity over that of sound.  @param share  of what it hears that is heard there.
+    void send(const ModalRun& run, int e, const float* heard, const Vec3& place, const Vec3& mach,
+              double share) noexcept;
     struct Shaded {
         const void* source;
         std::unique_ptr<Shade> shade;
@@ -125,6 +130,7 @@ private:
     std::int64_t dropped_ = 0;
     std::array<Ear, kEars> ear_;
     std::vector<Voice> voice_;
+    std::size_t hint_ = 0; ///< voice of the last block
     std::vector<std::weak_ptr<Sink>> sinks_;
     Meter meter_;
     std::vector<Shaded> shade_;

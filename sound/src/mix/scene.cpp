@@ -210,6 +210,16 @@ void Scene::on_modes(const ModalBlock& block) noexcept {
         listener->send(own);
 }
 
+void Scene::on_modal_run(const ModalRun& run) noexcept {
+    ModalRun own = run;
+    const double before = sounding_->now;
+    const double after = next_gain(settings_.send_rate() / run.samples);
+    own.gain_step = run.gain * (after - before) / run.samples;
+    own.gain = run.gain * before + own.gain_step;
+    for (const auto& listener : listeners_)
+        listener->send(own);
+}
+
 void Scene::end_voice(Body& body) noexcept {
     if (!body.voice)
         return;

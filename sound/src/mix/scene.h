@@ -119,6 +119,7 @@ private:
     void on_flow(const FlowBlock& block) noexcept override;
     void on_facets(const FacetBlock& block) noexcept override;
     void on_modes(const ModalBlock& block) noexcept override;
+    void on_modal_run(const ModalRun& run) noexcept override;
     void end_voice(Body& body) noexcept;
     double next_gain(double samples_per_second) noexcept;
     Body& find(const void* body, std::span<const int> triangle);

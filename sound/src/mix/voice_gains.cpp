@@ -6,18 +6,20 @@
 namespace ode::sound {
 
 VoiceGains::VoiceGains(const TransferTable& table)
-    : now_(table.mode.size()), next_(table.mode.size()), velocity_(table.mode.size()),
-      acceleration_(table.mode.size()), velocity_step_(table.mode.size()),
-      acceleration_step_(table.mode.size()), scratch_(table.scratch_size()) {}
+    : now_(table.mode.size()), next_(table.mode.size()), scratch_(table.scratch_size()) {
+    const std::size_t lanes = (now_.size() + kModeLanes - 1) / kModeLanes * kModeLanes;
+    for (AlignedFloats* row : {&velocity_, &acceleration_, &velocity_step_, &acceleration_step_})
+        row->assign(lanes, 0.0f);
+}
 
-void VoiceGains::look(const ModalBlock& block, const Vec3& ear) noexcept {
-    const Vec3 place = block.rotation.transpose() * (ear - block.center);
-    const bool anew = !known_ || block.sample - looked_ > 2 * kInterval;
-    looked_ = block.sample;
+void VoiceGains::look(std::int64_t sample, const TransferTable& table, const Vec3& place) noexcept {
+    const bool anew = !known_ || sample - looked_ > 2 * kInterval;
+    looked_ = sample;
     // The finest pattern has scratch_.size() lobes on the sphere: none has moved by a twentieth.
     constexpr double kSame = 0.05;
     const double lobe = place.norm() / std::sqrt(static_cast<double>(scratch_.size()));
     if (known_ && (place - place_).norm() < kSame * lobe) {
+        turns_ = false;
         std::fill(velocity_step_.begin(), velocity_step_.end(), 0.0f);
         std::fill(acceleration_step_.begin(), acceleration_step_.end(), 0.0f);
         for (std::size_t k = 0; k < next_.size(); ++k) {
@@ -27,10 +29,11 @@ void VoiceGains::look(const ModalBlock& block, const Vec3& ear) noexcept {
         return;
     }
     now_.swap(next_);
-    block.table->gains(place, next_, scratch_);
+    table.gains(place, next_, scratch_);
     if (anew)
         now_ = next_;
     known_ = true;
+    turns_ = !anew;
     place_ = place;
     for (std::size_t k = 0; k < now_.size(); ++k) {
         velocity_[k] = now_[k].velocity;
@@ -42,7 +45,7 @@ void VoiceGains::look(const ModalBlock& block, const Vec3& ear) noexcept {
 
 double VoiceGains::flow(const ModalBlock& block, const Vec3& ear) noexcept {
     if (!known_ || block.sample - looked_ >= kInterval || block.sample < looked_)
-        look(block, ear);
+        look(block.sample, *block.table, block.rotation.transpose() * (ear - block.center));
     constexpr std::size_t kLanes = 8;
     float sum[kLanes] = {}, change[kLanes] = {};
     const auto add = [&](std::size_t k, std::size_t lane) {
@@ -51,10 +54,10 @@ double VoiceGains::flow(const ModalBlock& block, const Vec3& ear) noexcept {
         change[lane] += velocity_step_[k] * q + acceleration_step_[k] * v;
     };
     std::size_t k = 0;
-    for (; k + kLanes <= velocity_.size(); k += kLanes)
+    for (; k + kLanes <= block.amplitude.size(); k += kLanes)
         for (std::size_t lane = 0; lane < kLanes; ++lane)
             add(k + lane, lane);
-    for (; k < velocity_.size(); ++k)
+    for (; k < block.amplitude.size(); ++k)
         add(k, 0);
     double all = 0.0, slope = 0.0;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
@@ -64,6 +67,33 @@ double VoiceGains::flow(const ModalBlock& block, const Vec3& ear) noexcept {
     const double share = static_cast<double>(block.sample - looked_) / kInterval;
     const Vec3 centre = block.center + block.rotation * block.table->centre;
     return (all + std::min(1.0, share) * slope) * (ear - centre).norm();
+}
+
+void VoiceGains::flow(const ModalRun& run, std::span<VoiceGains* const> gains,
+                      std::span<const Vec3> ear, float* const* out) noexcept {
+    const float *by[2][2] = {}, *step[2][2] = {};
+    float slope[2][ModalRun::kMost];
+    float* const slopes[2] = {slope[0], slope[1]};
+    bool turns = false;
+    for (std::size_t e = 0; e < gains.size(); ++e) {
+        VoiceGains& own = *gains[e];
+        if (!own.known_ || run.sample - own.looked_ >= kInterval || run.sample < own.looked_)
+            own.look(run.sample, *run.table, run.rotation.transpose() * (ear[e] - run.center));
+        by[e][0] = own.velocity_.data(), by[e][1] = own.acceleration_.data();
+        step[e][0] = own.velocity_step_.data(), step[e][1] = own.acceleration_step_.data();
+        turns = turns || own.turns_;
+    }
+    const auto ears = static_cast<int>(gains.size());
+    kernels().weigh(run.columns, run.samples, ears, by, run.amplitude, run.rate, out);
+    if (!turns)
+        return;
+    kernels().weigh(run.columns, run.samples, ears, step, run.amplitude, run.rate, slopes);
+    for (std::size_t e = 0; e < gains.size(); ++e)
+        for (int s = 0; s < run.samples; ++s) {
+            const double share =
+                static_cast<double>(run.sample + s - gains[e]->looked_) / kInterval;
+            out[e][s] += static_cast<float>(std::min(1.0, share)) * slope[e][s];
+        }
 }
 
 } // namespace ode::sound

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "dsp/kernels.h"
+#include "dsp/storage.h"
 #include "source/body_source.h"
 #include "transfer/transfer_table.h"
 
@@ -23,15 +25,20 @@ public:
     ///         table, R (g_v q + g_a q'), R the way from the table's centre.
     double flow(const ModalBlock& block, const Vec3& ear) noexcept;
 
+    /// The same for a run, of several ears at once. @param out  of each ear and sample, without R.
+    static void flow(const ModalRun& run, std::span<VoiceGains* const> gains,
+                     std::span<const Vec3> ear, float* const* out) noexcept;
+
 private:
-    void look(const ModalBlock& block, const Vec3& ear) noexcept;
+    void look(std::int64_t sample, const TransferTable& table, const Vec3& place) noexcept;
 
     std::vector<ModeGain> now_, next_;
-    std::vector<float> velocity_, acceleration_, velocity_step_, acceleration_step_;
+    AlignedFloats velocity_, acceleration_, velocity_step_, acceleration_step_; ///< kModeLanes
     std::vector<double> scratch_;
     std::int64_t looked_ = 0;
     Vec3 place_ = Vec3::Zero(); ///< of the ear in the frame, at the last real look [m]
     bool known_ = false;
+    bool turns_ = false; ///< the steps aren't zero
 };
 
 } // namespace ode::sound

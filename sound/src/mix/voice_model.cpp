@@ -68,6 +68,7 @@ std::shared_ptr<const StruckVoiceModel> make_voice_model(std::span<const double>
     }
     model->rigid = rigid_sound(mesh, Vec3::Zero(), air);
     find_levels(*model);
+    find_steps(*model, settings.send_rate());
     return model;
 }
 

@@ -56,6 +56,24 @@ struct ModalBlock {
     RigidSound::Six slope = RigidSound::Six::Zero();    ///< its derivative
 };
 
+/// Modes of a body at successive samples of the grid. Borrowed. A body that rings freely is told in
+/// runs: what is the same for all their samples is worked out once.
+struct ModalRun {
+    static constexpr int kMost = 32; ///< samples
+    std::int64_t sample;             ///< the first
+    int samples;
+    int columns;                   ///< of the rows: modes, and silent ones up to kModeLanes
+    const float *amplitude, *rate; ///< rows, one a sample
+    Eigen::Vector3d center, pace;  ///< at the first sample [m], and its change a sample
+    Eigen::Matrix3d rotation;      ///< from the frame to the world
+    const TransferTable* table;
+    const void* voice;
+    double gain, gain_step;          ///< at the first sample, and its change a sample
+    const RigidSound* rigid;         ///< null: the body as a whole is silent
+    const RigidSound::Six* velocity; ///< of the body in its frame, one a sample
+    const RigidSound::Six* slope;
+};
+
 /// Takes what sources give off, in order of time for each source.
 class BlockSink {
 public:
@@ -63,6 +81,7 @@ public:
     virtual void on_flow(const FlowBlock& block) noexcept = 0;
     virtual void on_facets(const FacetBlock& block) noexcept = 0;
     virtual void on_modes(const ModalBlock&) noexcept {}
+    virtual void on_modal_run(const ModalRun&) noexcept {}
 };
 
 /// The sounding surface of one body. Stepping thread; allocates at the first view alone.

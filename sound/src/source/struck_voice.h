@@ -1,5 +1,7 @@
 #pragma once
 
+#include "dsp/kernels.h"
+#include "dsp/storage.h"
 #include "source/modal_voice.h"
 #include "source/rigid_way.h"
 
@@ -21,7 +23,14 @@ struct StruckVoiceModel : ModalVoiceModel {
     /// Of each mode: pressure at 1 m per unit of its acceleration, mean square of six directions
     /// [Pa s^2 / (kg^1/2 m)].
     std::vector<double> level;
+    /// What the recurrence adds to q and q' a sample of the grid, four rows of `columns` (see
+    /// Kernels::ring), modes filled up to kModeLanes.
+    AlignedFloats step;
+    std::size_t columns = 0;
 };
+
+/// The recurrence's rows for modes at a rate [Hz].
+void find_steps(StruckVoiceModel& model, double rate);
 
 /// The sound of a rigid body that blows set ringing: its modes by exact recurrence, driven by
 /// impulses spread over contact times; and by how these jerk the body as a whole (RigidSound),
@@ -64,17 +73,18 @@ private:
     };
 
     void run(std::int64_t last, const FramePose& to, bool fading, BlockSink& out);
-    void press(std::int64_t sample) noexcept;
+    void send(std::int64_t first, int samples, const FramePose& to, bool fading, BlockSink& out);
+    void press(std::int64_t sample, float* row) noexcept;
     void settle() noexcept;
 
     std::shared_ptr<const StruckVoiceModel> model_;
     double rate_;
-    Resonators resonators_;
-    AlignedVector amplitude_, rate_of_;
-    std::vector<float> sent_amplitude_, sent_rate_;
+    AlignedFloats amplitude_, rate_of_;        ///< columns
+    AlignedFloats amplitude_rows_, rate_rows_; ///< of a run
+    std::array<RigidSound::Six, ModalRun::kMost> velocities_, slopes_;
     std::array<Pulse, kMostPulses> pulse_; ///< pulses_ of them, the oldest first
     std::size_t pulses_ = 0;
-    std::size_t active_ = 0; ///< modes from the lowest on that may be heard
+    std::size_t active_ = 0; ///< columns from the lowest mode on that may be heard
     bool jerked_ = false;    ///< the body as a whole is heard
     RigidWay way_;
     RigidSound::Six velocity_ = RigidSound::Six::Zero(); ///< that blows gave the body lately
