@@ -54,6 +54,9 @@ constexpr Benchmark kBenchmarks[] = {
      "Response, aliases, distortion, Doppler shift, arrival and latency of the sound path; a "
      "minute. "
      "Ends with 1 when the default misses a mark"},
+    {"modal", "modal",
+     "Rigid bodies that sound: pitch, decay, steps, energy, reciprocity, cost of 200; a minute. "
+     "Ends with 1 when a mark is missed"},
     {"live", "live",
      "Latency and gaps of live sound on OpenAL's null back end; ten seconds. Ends with 1 when a "
      "mark "

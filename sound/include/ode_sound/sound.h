@@ -147,6 +147,11 @@ DSOUND_API int dSoundModalSetGain(dSoundModalID modal, dReal gain);
 DSOUND_API int dSoundModalStrike(dSoundModalID modal, const dVector3 point, const dVector3 impulse,
                                  dReal contact);
 
+/** Velocity [m/s, world] with which vibration moves the surface next to a point [m, world], at the
+ * time that sound has been worked out for: a step ago. */
+DSOUND_API int dSoundModalGetVibration(dSoundModalID modal, const dVector3 point,
+                                       dVector3 velocity);
+
 /** Start with struct_size = sizeof(dSoundModalStatus). */
 typedef struct dSoundModalStatus {
     unsigned struct_size;

@@ -102,6 +102,22 @@ int dSoundModalStrike(dSoundModalID modal, const dVector3 point, const dVector3 
     });
 }
 
+int dSoundModalGetVibration(dSoundModalID modal, const dVector3 point, dVector3 velocity) {
+    require_id(modal, "dSoundModalGetVibration");
+    const RigidBody& rigid = *modal->rigid;
+    Vec3 out = Vec3::Zero();
+    const StruckVoice* voice = modal->owner->world.scene().find_struck(&rigid);
+    if (rigid.body && voice) {
+        const RigidMotion motion(rigid.body);
+        const Vec3 at = motion.place_in_frame(Vec3(point));
+        const StruckSurface& surface = rigid.model->surface;
+        out = motion.turn * surface.motion(surface.nearest(at, at), voice->rates());
+    }
+    for (int k = 0; k < 3; ++k)
+        velocity[k] = out[k];
+    return rigid.body != nullptr;
+}
+
 int dSoundModalGetStatus(dSoundModalID modal, dSoundModalStatus* status) {
     require_id(modal, "dSoundModalGetStatus");
     if (!status || status->struct_size < sizeof(unsigned)) {

@@ -42,6 +42,12 @@ std::optional<Blow> find_blow(const RigidTouch& touch, Acquaintance acquaintance
     blow.speed = speed;
     blow.mass = mass;
     blow.impulse = touch.impulse * (stroke / given * speed / closing);
+    // J v - J^2 / 2m. A bounce that gives all back, as applications like to have it, must be heard,
+    // too: a twentieth of what came.
+    constexpr double kLeast = 0.05;
+    const double push = stroke * speed / closing;
+    const double came = 0.5 * mass * speed * speed;
+    blow.energy = std::max(push * speed - push * push / (2.0 * mass), kLeast * came);
     blow.goes_on = acquaintance == Acquaintance::kLasting;
     return blow;
 }

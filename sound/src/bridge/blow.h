@@ -17,11 +17,12 @@ enum class Acquaintance {
 struct Blow {
     static constexpr double kFlutter = 6.0; ///< steps
 
-    double time;  ///< when it fell [s]
-    double speed; ///< of closing then [m/s]
-    double mass;  ///< effective, of both along the normal [kg]
-    Vec3 impulse; ///< on the first body [N s]
-    bool goes_on; ///< the stroke takes more than one step: it is a push
+    double time;   ///< when it fell [s]
+    double speed;  ///< of closing then [m/s]
+    double mass;   ///< effective, of both along the normal [kg]
+    Vec3 impulse;  ///< on the first body [N s]
+    double energy; ///< that motion loses by it, and vibration may get at most [J]
+    bool goes_on;  ///< the stroke takes more than one step: it is a push
 };
 
 /// Nothing for a contact that merely bears load: ODE gives the load of a step at once, so that what

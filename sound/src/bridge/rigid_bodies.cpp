@@ -1,6 +1,7 @@
 #include "bridge/rigid_bodies.h"
 
 #include "bridge/blow.h"
+#include "strike/pulse.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,9 @@ namespace {
 
 /// A stone floor: what a body strikes that nobody has told of.
 constexpr Elastic kStone{30e9, 0.2};
+
+/// Slower than this no blow of a body without modes is heard to be [rad/s].
+constexpr double kHearing = 2.0 * 3.14159 * 2000.0;
 
 FramePose pose_of(dBodyID body, double time) {
     const dReal *x = dBodyGetPosition(body), *q = dBodyGetQuaternion(body);
@@ -204,17 +208,38 @@ void RigidBodies::meet(RigidTouch& touch, double h, Scene& scene, RigidModels& m
     const double pressed =
         contact_time(blow->mass, curvature, contact_modulus(elastic[0], elastic[1]), blow->speed);
     const double duration = blow->goes_on ? std::max(pressed, 2.0 * h) : pressed;
+    double taken = 0.0; // by the modes of both [J]
+    bool any = false;
+    for (int i = 0; i < 2; ++i) {
+        if (!side[i])
+            continue;
+        const RigidModel& model = *side[i]->model;
+        std::fill(side[i]->push.begin(), side[i]->push.end(), 0.0f);
+        model.surface.project(place[i], touch.motion[i].into_frame(blow->impulse), side[i]->push);
+        for (std::size_t k = 0; k < model.omega.size(); ++k)
+            taken += 0.5 * std::pow(static_cast<double>(side[i]->push[k]) *
+                                        pulse_spectrum(model.omega[k] * duration),
+                                    2);
+        // What takes longer than a body's slowest wave bends it and doesn't ring it.
+        constexpr double kHeard = 0.01;
+        const double slowest = model.omega.empty() ? kHearing : model.omega.front();
+        any = any || pulse_spectrum(std::min(slowest, kHearing) * duration) > kHeard;
+    }
+    if (!any)
+        return;
+    const double share = taken > blow->energy ? std::sqrt(blow->energy / taken) : 1.0;
     for (int i = 0; i < 2; ++i) {
         if (!side[i])
             continue;
         ++side[i]->blows;
-        const Vec3 impulse =
-            touch.motion[i].into_frame(i == 0 ? blow->impulse : Vec3(-blow->impulse));
-        std::fill(side[i]->push.begin(), side[i]->push.end(), 0.0f);
-        side[i]->model->surface.project(place[i], impulse, side[i]->push);
+        const double sign = i == 0 ? 1.0 : -1.0;
+        for (float& push : side[i]->push)
+            push *= static_cast<float>(sign * share);
+        const RigidMotion& motion = touch.motion[i];
         voice(*side[i], scene, models)
             .strike(blow->time, duration, side[i]->push,
-                    touch.motion[i].jerk(touch.motion[i].place_in_frame(touch.position), impulse));
+                    motion.jerk(motion.place_in_frame(touch.position),
+                                motion.into_frame(sign * blow->impulse)));
     }
 }
 

@@ -12,8 +12,8 @@ VoiceGains::VoiceGains(const TransferTable& table)
         row->assign(lanes, 0.0f);
 }
 
-void VoiceGains::look(std::int64_t sample, const TransferTable& table, const Vec3& place) noexcept {
-    const bool anew = !known_ || sample - looked_ > 2 * kInterval;
+bool VoiceGains::look(std::int64_t sample, const TransferTable& table, const Vec3& place) noexcept {
+    const bool anew = !known_ || sample - looked_ > 64 * kInterval;
     looked_ = sample;
     // The finest pattern has scratch_.size() lobes on the sphere: none has moved by a twentieth.
     constexpr double kSame = 0.05;
@@ -26,7 +26,7 @@ void VoiceGains::look(std::int64_t sample, const TransferTable& table, const Vec
             velocity_[k] = next_[k].velocity;
             acceleration_[k] = next_[k].acceleration;
         }
-        return;
+        return false;
     }
     now_.swap(next_);
     table.gains(place, next_, scratch_);
@@ -41,6 +41,7 @@ void VoiceGains::look(std::int64_t sample, const TransferTable& table, const Vec
         velocity_step_[k] = next_[k].velocity - now_[k].velocity;
         acceleration_step_[k] = next_[k].acceleration - now_[k].acceleration;
     }
+    return true;
 }
 
 double VoiceGains::flow(const ModalBlock& block, const Vec3& ear) noexcept {
@@ -70,15 +71,22 @@ double VoiceGains::flow(const ModalBlock& block, const Vec3& ear) noexcept {
 }
 
 void VoiceGains::flow(const ModalRun& run, std::span<VoiceGains* const> gains,
-                      std::span<const Vec3> ear, float* const* out) noexcept {
+                      std::span<const Vec3> ear, double allowance, float* const* out) noexcept {
     const float *by[2][2] = {}, *step[2][2] = {};
     float slope[2][ModalRun::kMost];
     float* const slopes[2] = {slope[0], slope[1]};
     bool turns = false;
     for (std::size_t e = 0; e < gains.size(); ++e) {
         VoiceGains& own = *gains[e];
-        if (!own.known_ || run.sample - own.looked_ >= kInterval || run.sample < own.looked_)
-            own.look(run.sample, *run.table, run.rotation.transpose() * (ear[e] - run.center));
+        const auto cost = static_cast<double>(run.table->coefficient.size());
+        own.credit_ = std::min(own.credit_ + allowance * run.samples, 2.0 * cost);
+        const std::int64_t since = run.sample - own.looked_;
+        const bool asks = since >= kInterval && own.credit_ >= cost;
+        if (!own.known_ || asks || since < 0) {
+            own.ramp_ = std::clamp<std::int64_t>(since, kInterval, 32 * kInterval);
+            if (own.look(run.sample, *run.table, run.rotation.transpose() * (ear[e] - run.center)))
+                own.credit_ -= cost;
+        }
         by[e][0] = own.velocity_.data(), by[e][1] = own.acceleration_.data();
         step[e][0] = own.velocity_step_.data(), step[e][1] = own.acceleration_step_.data();
         turns = turns || own.turns_;
@@ -90,8 +98,8 @@ void VoiceGains::flow(const ModalRun& run, std::span<VoiceGains* const> gains,
     kernels().weigh(run.columns, run.samples, ears, step, run.amplitude, run.rate, slopes);
     for (std::size_t e = 0; e < gains.size(); ++e)
         for (int s = 0; s < run.samples; ++s) {
-            const double share =
-                static_cast<double>(run.sample + s - gains[e]->looked_) / kInterval;
+            const double share = static_cast<double>(run.sample + s - gains[e]->looked_) /
+                                 static_cast<double>(gains[e]->ramp_);
             out[e][s] += static_cast<float>(std::min(1.0, share)) * slope[e][s];
         }
 }

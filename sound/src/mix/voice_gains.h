@@ -25,12 +25,18 @@ public:
     ///         table, R (g_v q + g_a q'), R the way from the table's centre.
     double flow(const ModalBlock& block, const Vec3& ear) noexcept;
 
+    /// What looks may cost a listener, shared by its voices: numbers of the table a sample. Some
+    /// tenth of a core; who is short of it looks more rarely.
+    static constexpr double kAllowance = 1000.0;
+
     /// The same for a run, of several ears at once. @param out  of each ear and sample, without R.
+    /// @param allowance  for one ear, a sample.
     static void flow(const ModalRun& run, std::span<VoiceGains* const> gains,
-                     std::span<const Vec3> ear, float* const* out) noexcept;
+                     std::span<const Vec3> ear, double allowance, float* const* out) noexcept;
 
 private:
-    void look(std::int64_t sample, const TransferTable& table, const Vec3& place) noexcept;
+    /// @return whether the table was asked.
+    bool look(std::int64_t sample, const TransferTable& table, const Vec3& place) noexcept;
 
     std::vector<ModeGain> now_, next_;
     AlignedFloats velocity_, acceleration_, velocity_step_, acceleration_step_; ///< kModeLanes
@@ -38,7 +44,9 @@ private:
     std::int64_t looked_ = 0;
     Vec3 place_ = Vec3::Zero(); ///< of the ear in the frame, at the last real look [m]
     bool known_ = false;
-    bool turns_ = false; ///< the steps aren't zero
+    double credit_ = 0.0;
+    std::int64_t ramp_ = kInterval; ///< to the gains of the last look [grid samples]
+    bool turns_ = false;            ///< the steps aren't zero
 };
 
 } // namespace ode::sound

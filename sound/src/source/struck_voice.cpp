@@ -11,8 +11,8 @@ namespace ode::sound {
 namespace {
 
 // What a blow has given a body's velocity is forgotten: later steps of ODE's change it again, and
-// frequencies of some hertz that this makes are not heard.
-constexpr double kMemory = 0.02; // [s]
+// frequencies of some ten hertz that this makes are not heard.
+constexpr double kMemory = 5e-3; // [s]
 
 } // namespace
 
@@ -165,7 +165,7 @@ void StruckVoice::settle() noexcept {
     if (pulses_ > 0)
         return;
     // A body that moves steadily makes no sound; this is what is left of having forgotten a blow.
-    constexpr double kStill = 1e-6; // of 1 m/s, and of its radius times 1 /s
+    constexpr double kStill = 1e-5; // of 1 m/s, and of its radius times 1 /s
     if (velocity_.head<3>().norm() + model_->rigid.radius * velocity_.tail<3>().norm() < kStill)
         jerked_ = false;
     std::size_t heard = std::min(active_, model_->omega.size());

@@ -63,6 +63,9 @@ public:
     bool is_silent() const noexcept { return active_ == 0 && pulses_ == 0 && !jerked_; }
     const StruckVoiceModel& model() const noexcept { return *model_; }
     double energy() const noexcept; ///< of all modes [J]
+    std::span<const float> rates() const noexcept {
+        return rate_of_;
+    } ///< of all modes, and padding
 
 private:
     struct Pulse {

@@ -48,4 +48,28 @@ double pulse_share(double u) noexcept {
     return a + t * (da + t * (3.0 * (b - a) - 2.0 * da - db + t * (2.0 * (a - b) + da + db)));
 }
 
+double pulse_spectrum(double x) noexcept {
+    constexpr double kEnd = 60.0;
+    constexpr std::size_t kSteps = 480;
+    static const auto table = [] {
+        std::array<double, kSteps + 2> out{};
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            const double w = kEnd * static_cast<double>(i) / kSteps;
+            double sum = 0.0; // real: the pulse is even about its middle
+            for (std::size_t c = 0; c < kCells; ++c) {
+                const double u = (static_cast<double>(c) + 0.5) / kCells;
+                sum += (pulse_share(u + 0.5 / kCells) - pulse_share(u - 0.5 / kCells)) *
+                       std::cos(w * (u - 0.5));
+            }
+            out[i] = std::fabs(sum);
+        }
+        return out;
+    }();
+    if (!(x < kEnd))
+        return 0.0;
+    const double place = x / kEnd * kSteps;
+    const auto i = static_cast<std::size_t>(place);
+    return table[i] + (place - static_cast<double>(i)) * (table[i + 1] - table[i]);
+}
+
 } // namespace ode::sound

@@ -7,4 +7,8 @@ namespace ode::sound {
 /// @return the share of the impulse given by u; 0 before, 1 after.
 double pulse_share(double u) noexcept;
 
+/// How much of the impulse an oscillator of w feels that is pressed so for a time T: the spectrum
+/// at x = w T, 1 at 0. Beyond x = 60 less than 1e-4: 0.
+double pulse_spectrum(double x) noexcept;
+
 } // namespace ode::sound

@@ -174,4 +174,20 @@ void StruckSurface::project(const Place& place, const Vec3& impulse,
     }
 }
 
+Vec3 StruckSurface::motion(const Place& place, std::span<const float> q) const noexcept {
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto n =
+            static_cast<std::size_t>(triangle_[static_cast<std::size_t>(place.triangle)][i]);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float* row = shape_.data() + (3 * n + axis) * modes_;
+            double along = 0.0;
+            for (std::size_t k = 0; k < modes_; ++k)
+                along += static_cast<double>(row[k]) * static_cast<double>(q[k]);
+            sum[static_cast<int>(axis)] += place.weight[static_cast<int>(i)] * along;
+        }
+    }
+    return sum;
+}
+
 } // namespace ode::sound

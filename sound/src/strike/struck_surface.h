@@ -42,6 +42,9 @@ public:
     /// push[k] += shape of mode k at the place . impulse.
     void project(const Place& place, const Vec3& impulse, std::span<float> push) const noexcept;
 
+    /// The transpose of it: sum over the modes of shape times q.
+    Vec3 motion(const Place& place, std::span<const float> q) const noexcept;
+
     std::size_t modes() const noexcept { return modes_; }
     double radius() const noexcept { return radius_; } ///< of the farthest node [m]
     std::span<const Vec3> nodes() const noexcept { return node_; }
