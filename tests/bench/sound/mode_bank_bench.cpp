@@ -58,8 +58,8 @@ void bank(benchmark::State& state, const Kernels& set, int ears) {
     const Bank fresh(b.columns);
     long samples = 0;
     for (auto _ : state) {
-        set.ring(b.columns, kBlock, b.step.data(), b.columns, b.q.data(), b.v.data(), b.q_rows.data(),
-                 b.v_rows.data());
+        set.ring(b.columns, kBlock, b.step.data(), b.columns, b.q.data(), b.v.data(),
+                 b.q_rows.data(), b.v_rows.data());
         if (ears > 0)
             set.weigh(b.columns, kBlock, ears, by, b.q_rows.data(), b.v_rows.data(), out);
         benchmark::DoNotOptimize(left);
@@ -74,8 +74,8 @@ void bank(benchmark::State& state, const Kernels& set, int ears) {
     // After a second: cents, decay and level of the worst mode.
     Bank error(64);
     for (long n = 0; n < 96000; n += kBlock)
-        set.ring(error.columns, kBlock, error.step.data(), error.columns, error.q.data(), error.v.data(),
-                 error.q_rows.data(), error.v_rows.data());
+        set.ring(error.columns, kBlock, error.step.data(), error.columns, error.q.data(),
+                 error.v.data(), error.q_rows.data(), error.v_rows.data());
     double worst = 0.0;
     for (int k = 0; k < error.columns; ++k) {
         const double w = error.omega(k), d = error.decay(k), wd = std::sqrt(w * w - d * d);
