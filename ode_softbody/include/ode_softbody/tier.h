@@ -3,9 +3,9 @@
  * softbody.h, which includes this.
  *
  * In modes a body is a rigid frame with small vibrations in it, each carried over any time by its
- * exact solution. That costs about a thousandth of the explicit tier, and nothing between contacts.
- * It is right as far as vibrations are small against the body's thickness, and it knows no
- * frequency above 22 kHz; what a body yields to contact beyond these is kept (residual
+ * exact solution. That costs a few microseconds a substep of contact, and nothing between contacts.
+ * It is right as far as vibrations are small against the body's thickness. What is heard of it ends
+ * at 22 kHz; contact sees its modes up to 77 kHz, and the rest as it yields at rest (residual
  * flexibility). Both tiers move on the same elements with the same masses, so that pitch and decay
  * stay when a body changes tier; momentum is handed over exactly.
  */
@@ -22,14 +22,21 @@ extern "C" {
  * "explicit"  every node, substep by substep: any strain (default)
  * "modal"     modes wherever they can be had: a body of one piece, free or held fast by pins, with
  *             at most 500 modes up to 22 kHz, and nailed to no rigid body; else explicit
- * "auto"      modes while the waveform is expected within 2.5 % of the explicit one's, else
- *             explicit; the body changes when it isn't in contact
+ * "auto"      modes while the waveform is expected within dSoftBodySetWaveformTolerance() of the
+ *             explicit one's, else explicit; the body changes when it isn't in contact
  * Takes effect with the next step. Modes are found once (fractions of a second to seconds), shared
  * by like bodies and kept in the cache that dSoftModesOptions names.
  * @return 0 for an unknown name, after listing the known ones. */
 DSOFT_API int dSoftBodySetTier(dSoftBodyID body, const char* name);
 /** The name chosen. */
 DSOFT_API const char* dSoftBodyGetTier(dSoftBodyID body);
+
+/** How far "auto" lets the waveform be from the explicit one's.
+ * @param relative  L2 error of velocities below 22 kHz, of the first tens of milliseconds of a
+ *                  ring; 0.025 by default, 0 < relative <= 1. Below 0.0014 there are no modes.
+ * @return 0 for a number that isn't one, with a message. */
+DSOFT_API int dSoftBodySetWaveformTolerance(dSoftBodyID body, dReal relative);
+DSOFT_API dReal dSoftBodyGetWaveformTolerance(dSoftBodyID body);
 
 /** Start with struct_size = sizeof(dSoftTierStatus). */
 typedef struct dSoftTierStatus {

@@ -35,6 +35,25 @@ const char* dSoftBodyGetTier(dSoftBodyID id) {
         ->name.data();
 }
 
+int dSoftBodySetWaveformTolerance(dSoftBodyID id, dReal relative) {
+    Body* body = live(id, __func__);
+    if (!body || !may_edit(body->world(), __func__))
+        return 0;
+    return guarded(__func__, 0, [&] {
+        if (!(relative > 0 && relative <= 1))
+            throw InputError(format("a waveform tolerance of %g is none; give a share of the "
+                                    "waveform above 0 and up to 1, such as 0.025",
+                                    relative));
+        body->set_waveform_tolerance(relative);
+        return 1;
+    });
+}
+
+dReal dSoftBodyGetWaveformTolerance(dSoftBodyID id) {
+    const Body* body = live(id, __func__);
+    return body ? body->waveform_tolerance() : 0;
+}
+
 int dSoftBodyGetModalBasis(dSoftBodyID id, dSoftModalBasis* basis) {
     Body* body = live(id, __func__);
     if (!body || !body->rings())

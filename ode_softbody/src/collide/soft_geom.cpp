@@ -153,6 +153,19 @@ dGeomID topmost(dGeomID geom) noexcept {
     return geom;
 }
 
+bool is_flat(dSpaceID space) noexcept {
+    // ODE 0.16.2 aborts a program that lists a quadtree.
+    if (dGeomGetClass(reinterpret_cast<dGeomID>(space)) == dQuadTreeSpaceClass)
+        return false;
+    const int count = dSpaceGetNumGeoms(space);
+    for (int i = 0; i < count; ++i)
+        if (dGeomIsSpace(dSpaceGetGeom(space, i)))
+            return false;
+    return true;
+}
+
+void collide_all(dSpaceID space) noexcept { dSpaceCollide(space, nullptr, &ignore_pair); }
+
 void collide_now(dGeomID geom) noexcept {
     if (const dGeomID top = topmost(geom); top != geom)
         collide_with(geom, top);

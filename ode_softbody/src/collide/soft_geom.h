@@ -61,6 +61,11 @@ int soft_geoms_in(dSpaceID space) noexcept;
 /// in none.
 dGeomID topmost(dGeomID geom) noexcept;
 
+/// Whether all geoms of a space can be asked at once by collide_all(): it holds no other space, and
+/// can be listed.
+bool is_flat(dSpaceID space) noexcept;
+/// All pairs of a flat space at once: where many soft geoms are in it, each would ask all others.
+void collide_all(dSpaceID space) noexcept;
 /// Makes the geom meet everything in the topmost space it lies in. No near callback is involved.
 void collide_now(dGeomID geom) noexcept;
 

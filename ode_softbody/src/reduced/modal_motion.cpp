@@ -34,7 +34,7 @@ ModalMotion::ModalMotion(std::shared_ptr<const ModalBasis> basis)
         q.assign(basis_->columns, 0.0f);
     state_.amplitude.assign(basis_->columns, 0.0);
     state_.rate.assign(basis_->columns, 0.0);
-    ahead_ = state_;
+    ahead_ = kept_ = state_;
     if (!basis_->held)
         inverse_inertia_ = basis_->inertia.inverse();
 }
@@ -177,10 +177,33 @@ void ModalMotion::set_load(const Vec3& gravity, const NodeArray* forces) noexcep
     loaded_ = std::any_of(load_.begin(), load_.end(), [](double f) { return f != 0; });
 }
 
+void ModalMotion::keep() noexcept {
+    copy(state_, kept_);
+    kept_awake_ = awake_;
+}
+
+void ModalMotion::take_back() noexcept {
+    for (AlignedVector<double>* q :
+         {&state_.amplitude, &state_.rate, &ahead_.amplitude, &ahead_.rate})
+        std::fill(q->begin(), q->end(), 0.0);
+    awake_ = kept_awake_;
+    copy(kept_, state_);
+    foreseen_ = 0;
+}
+
+void ModalMotion::copy(const ModalState& from, ModalState& to) const noexcept {
+    to.center = from.center;
+    to.velocity = from.velocity;
+    to.turn = from.turn;
+    to.spin_momentum = from.spin_momentum;
+    std::copy_n(from.amplitude.begin(), awake_, to.amplitude.begin());
+    std::copy_n(from.rate.begin(), awake_, to.rate.begin());
+}
+
 const ModalState& ModalMotion::foresee(double dt) noexcept {
     if (foreseen_ == dt)
         return ahead_;
-    ahead_ = state_;
+    copy(state_, ahead_); // what sleeps is zero in both
     foreseen_ = 0;
     advance(dt);
     std::swap(state_, ahead_);

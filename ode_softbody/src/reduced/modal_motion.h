@@ -37,11 +37,8 @@ public:
     const ModalBasis& basis() const noexcept { return *basis_; }
     const std::shared_ptr<const ModalBasis>& shared_basis() const noexcept { return basis_; }
     const ModalState& state() const noexcept { return state_; }
-    void set_state(const ModalState& state) noexcept { ///< of this basis
-        state_ = state;
-        awake_ = basis_->columns;
-        foreseen_ = 0;
-    }
+    void keep() noexcept;      ///< the state, for
+    void take_back() noexcept; ///< coming back to it
 
     /// Takes over the motion of nodes whose velocity is that of the positions' time. What is in no
     /// mode is lost, momentum is not. @param held  nodes that tell the frame; none: all do.
@@ -98,12 +95,15 @@ private:
     void mix(const Vec3& spin, double dt) noexcept;
     int pieces(const Vec3& spin, double dt) const noexcept;
     void rest_what_died() noexcept;
+    void copy(const ModalState& from, ModalState& to) const noexcept; ///< what is awake
 
     std::shared_ptr<const ModalBasis> basis_;
     Oscillators oscillators_;
     ModalState state_;
-    std::size_t awake_;   ///< columns
-    int unpruned_ = 0;    ///< advances since the modes above were last looked at
+    std::size_t awake_; ///< columns
+    int unpruned_ = 0;  ///< advances since the modes above were last looked at
+    ModalState kept_;   ///< by keep()
+    std::size_t kept_awake_ = 0;
     ModalState ahead_;    ///< foreseen
     double foreseen_ = 0; ///< for so long; 0: not at all [s]
     Mat3 inverse_inertia_ = Mat3::Zero();

@@ -164,6 +164,8 @@ public:
     unsigned long tier_changes() const noexcept { return tier_changes_; }
     /// Of the linear tier's waveform, as last estimated, relative; infinite before.
     double linear_error() const noexcept { return linear_error_; }
+    double waveform_tolerance() const noexcept { return waveform_tolerance_; }
+    void set_waveform_tolerance(double relative) noexcept { waveform_tolerance_ = relative; }
 
     const ContactLaw& contact_law() const noexcept { return contact_law_; }
     void set_contact_law(const ContactLaw& law) noexcept { contact_law_ = law; }
@@ -380,6 +382,7 @@ private:
     std::unique_ptr<ModalTier> idle_modes_; ///< while it doesn't, once it did
     bool modes_known_ = false;              ///< asked for since supports last changed
     unsigned long tier_changes_ = 0;
+    double waveform_tolerance_ = 0.025; ///< of modes against nodes: see linear_error_of()
     double linear_error_ = std::numeric_limits<double>::infinity();
     double thickness_ = 0;  ///< twice volume over surface [m]
     double sampled_at_ = 0; ///< displacement at which the error was last estimated [m]

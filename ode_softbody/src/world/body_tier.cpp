@@ -25,12 +25,11 @@ constexpr std::size_t kMostModes = 500; ///< a body with more is soft: it deform
 constexpr double kContactBand = 3.5 * kAudible;
 constexpr double kLeastBand = 3 * kAudible; ///< where that takes more than kMostModes
 
-constexpr double kTolerance = 0.025; ///< of the waveform: see linear_error()
-constexpr double kWellWithin = 0.5;  ///< of the tolerance, before modes take over: hysteresis
-constexpr double kUrgent = 4;        ///< tolerances off: not even a contact is waited for
-constexpr int kSampled = 8;          ///< steps between estimates of the error in modes
-constexpr int kSettled = 2;          ///< steps between looks whether modes may take over
-constexpr double kGrown = 1.5;       ///< of the displacement, that asks for one at once
+constexpr double kWellWithin = 0.5; ///< of the tolerance, before modes take over: hysteresis
+constexpr double kUrgent = 4;       ///< tolerances off: not even a contact is waited for
+constexpr int kSampled = 8;         ///< steps between estimates of the error in modes
+constexpr int kSettled = 2;         ///< steps between looks whether modes may take over
+constexpr double kGrown = 1.5;      ///< of the displacement, that asks for one at once
 
 // Relative error of the linear waveform against the non-linear one, by the largest displacement in
 // thicknesses: of a bowl 0.1 over 20 ms (tests/physics/tier/free_strike_test.cpp), and up to 0.3
@@ -198,7 +197,7 @@ void Body::choose_tier() noexcept {
         unsampled_ = 0;
         sampled_at_ = now;
         linear_error_ = estimate_linear_error(*modes_);
-        if (linear_error_ > (bearing_points_ == 0 ? 1 : kUrgent) * kTolerance)
+        if (linear_error_ > (bearing_points_ == 0 ? 1 : kUrgent) * waveform_tolerance_)
             leave_modes();
         return;
     }
@@ -212,11 +211,11 @@ void Body::choose_tier() noexcept {
     ModalMotion& motion = idle_modes_->motion();
     const double lost = motion.take(state_, pinned_);
     linear_error_ = estimate_linear_error(*idle_modes_);
-    if (linear_error_ > kWellWithin * kTolerance)
+    if (linear_error_ > kWellWithin * waveform_tolerance_)
         return;
     // What is in no mode would be lost with the change.
-    constexpr double kShare = kWellWithin * kTolerance * kWellWithin * kTolerance;
-    if (lost > kShare * (motion.vibration_energy() + lost))
+    const double bearable = kWellWithin * waveform_tolerance_;
+    if (lost > noise_ + bearable * bearable * (motion.vibration_energy() + lost))
         return;
     sampled_at_ = motion.largest_displacement();
     enter_modes();
@@ -232,7 +231,7 @@ bool Body::bears_in_modes(double blow, ModalTier& modes) noexcept {
     // A blow displaces what it strikes by its speed over the lowest frequency at most.
     const double swing = (modes_ ? modes.motion().displacement_envelope(contact_nodes_.node) : 0) +
                          blow / basis.omega[0];
-    return linear_error_of(swing) <= kTolerance;
+    return linear_error_of(swing) <= waveform_tolerance_;
 }
 
 double Body::blow_ahead(double steps) noexcept {

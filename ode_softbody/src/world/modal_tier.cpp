@@ -18,7 +18,6 @@ ModalTier::ModalTier(std::shared_ptr<const ModalBasis> basis, const SurfaceNodes
     near_.reserve(surface.node.size());
     all_.resize(motion_.basis().nodes());
     std::iota(all_.begin(), all_.end(), 0);
-    kept_ = motion_.state();
 }
 
 void ModalTier::refresh() noexcept {

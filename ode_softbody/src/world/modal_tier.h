@@ -48,9 +48,9 @@ public:
     double pace() const noexcept { return pace_; }
     void set_pace(double dt) noexcept { pace_ = dt; }
 
-    void keep() { kept_ = motion_.state(); }
+    void keep() noexcept { motion_.keep(); }
     void take_back() noexcept {
-        motion_.set_state(kept_);
+        motion_.take_back();
         moved();
     }
 
@@ -69,7 +69,6 @@ private:
     double pace_ = 0;
     bool stale_ = false;
     bool near_stale_ = true;
-    ModalState kept_;
 };
 
 } // namespace ode::soft

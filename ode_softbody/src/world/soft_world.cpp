@@ -148,10 +148,13 @@ void SoftWorld::meet(double h) noexcept {
     }
     last_step_ = h;
     const bool sleepers_look = space_ && is_quadtree(space_);
-    for (const auto& body : body_)
-        if (body->geom() && (body->moves() || (sleepers_look && body->asleep())) &&
-            dGeomIsEnabled(body->geom()))
-            collide_now(body->geom());
+    if (many_in_one_space())
+        collide_all(space_);
+    else
+        for (const auto& body : body_)
+            if (body->geom() && (body->moves() || (sleepers_look && body->asleep())) &&
+                dGeomIsEnabled(body->geom()))
+                collide_now(body->geom());
     other_spaces_.collide();
     if (space_ &&
         std::any_of(body_.begin(), body_.end(), [](const auto& body) { return !body->stopped(); }))
@@ -161,6 +164,18 @@ void SoftWorld::meet(double h) noexcept {
     for (const auto& body : body_)
         if (body->moves())
             choose_pairs(*body, body->pair_, contact_chooser_, said_, body->rigid_pair_);
+}
+
+bool SoftWorld::many_in_one_space() const noexcept {
+    constexpr std::size_t kMany = 16; // from here on ODE's own pairing is quicker
+    const auto own = reinterpret_cast<dGeomID>(space_);
+    return space_ && body_.size() >= kMany &&
+           std::all_of(body_.begin(), body_.end(),
+                       [&](const auto& body) {
+                           return body->geom() && body->moves() && topmost(body->geom()) == own &&
+                                  dGeomGetSpace(body->geom()) == space_;
+                       }) &&
+           is_flat(space_);
 }
 
 double SoftWorld::common_substep(double h) const noexcept {

@@ -121,6 +121,7 @@ private:
     /// Collects what is near each body, in its own space and in those that the application has
     /// collided it with, and settles which pairs bear contact, and how.
     void meet(double h) noexcept;
+    bool many_in_one_space() const noexcept; ///< that all move, and nothing else is in it but geoms
     /// The substep that suits all bodies that move, dividing h [s].
     double common_substep(double h) const noexcept;
     /// The same from `done` on of a step of h, where every body may take what it likes: a power of
