@@ -49,10 +49,12 @@ DSOUND_API void dSoundWorldDestroy(dSoundWorldID world);
  *             that turns away fades over cos = 0.05 .. -0.05, so that it doesn't click
  * "paper"     P01 equation 10 with its DC block: z v_n a cos(theta) / R            [Pa m]; under
  *             "sinc" sampling the DC block acts once an ear, under "paper" on every triangle
- * Monopole: within 0.3 dB of a pulsating sphere for ka <= 10, 1.1 dB of a shaking one, 3 dB of a
- * bending bar (softsound bench radiation); nearer than a sixth of a wavelength a shaking body is
- * louder. Under "paper" sampling it carries no air. A change while sound is under way cuts that
- * off.
+ * Bodies that move in their modes (tier.h) are heard by a table of the rule chosen, "monopole",
+ * "kirchhoff" or "transfer", outside the sphere round them; made when one is first heard. Their
+ * motion as a whole sounds as a sphere's of the same dipole does. Monopole: within 0.3 dB of a
+ * pulsating sphere for ka <= 10, 1.1 dB of a shaking one, 3 dB of a bending bar (softsound bench
+ * radiation); nearer than a sixth of a wavelength a shaking body is louder. Under "paper" sampling
+ * it carries no air. A change while sound is under way cuts that off.
  * @return 0 for an unknown name, after listing the known ones. */
 DSOUND_API int dSoundSetRadiation(dSoundWorldID world, const char* name);
 
