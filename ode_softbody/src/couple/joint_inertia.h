@@ -20,7 +20,7 @@ public:
 
     /// Mean velocity over the substep to come, with all pushes so far [m/s].
     virtual Vec3 ahead(const CarriedPoint& point) const noexcept = 0;
-    /// What a push of 1 N along a unit vector adds to it there, over the substep's length [1/kg].
+    /// What an impulse of 1 N s, spread over the substep, along a unit vector adds to it [1/kg].
     virtual double compliance(const CarriedPoint& point, const Vec3& direction) const noexcept = 0;
     /// A constant force over the substep [N].
     virtual void push(std::size_t node, const Vec3& force) noexcept = 0;

@@ -18,8 +18,11 @@ public:
 
     /// Begins a substep: writes places [m] and velocities [m/s] of `near` nodes.
     void begin(std::span<const int> near, double dt) noexcept;
-    /// The motion has advanced. @param pushed  by what this view was told of.
-    void end() noexcept { ++substep_; }
+    /// The motion has advanced. @param pushed  by anybody, whether this view was told or not.
+    void end(bool pushed) noexcept {
+        ++substep_;
+        pushed_ |= pushed;
+    }
 
     Vec3 ahead(const CarriedPoint& point) const noexcept override;
     double compliance(const CarriedPoint& point, const Vec3& direction) const noexcept override;

@@ -278,7 +278,7 @@ void Body::enter_modes() noexcept {
     level_velocity();
     modes_ = std::move(idle_modes_);
     modes_->motion().take(state_, pinned_);
-    modes_->moved();
+    modes_->moved(true);
     contact_nodes_.residual = modes_->motion().basis().residual.normal;
     contact_nodes_.residual_across = modes_->motion().basis().residual.across;
     world_.exchange_.forget(*this);
@@ -308,12 +308,13 @@ void Body::begin_ringing_step(const Vec3& gravity) noexcept {
 }
 
 void Body::advance_ringing(double dt) noexcept {
-    if (!contacts_.empty()) {
+    const bool pushed = !contacts_.empty();
+    if (pushed) {
         modes_->motion().push(contacts_, state_, dt);
         contacts_.each([&](std::size_t n, const auto&) { force_[n].setZero(); });
     }
     modes_->motion().advance(dt);
-    modes_->moved();
+    modes_->moved(pushed);
     if (!looking_)
         return;
     const double energy = modes_->motion().vibration_energy();

@@ -30,9 +30,10 @@ public:
     /// Those that contact looks at, before a substep of dt [s], unless they are up to date.
     void place_near(double dt) noexcept;
     JointInertia& joint() noexcept { return view_; } ///< good after place_near()
-    void moved() noexcept {
+    /// @param pushed  by contact.
+    void moved(bool pushed) noexcept {
         stale_ = near_stale_ = true;
-        view_.end();
+        view_.end(pushed);
     }
 
     void clear_near() noexcept {
@@ -51,7 +52,7 @@ public:
     void keep() noexcept { motion_.keep(); }
     void take_back() noexcept {
         motion_.take_back();
-        moved();
+        moved(true);
     }
 
     /// Of all nodes, by the rest shape and the largest displacement.
