@@ -10,6 +10,12 @@ void add_demo(CLI::App& app, Common& common) {
     CLI::App& demo = *app.add_subcommand("demo", "Run a scene and hear, see and read its result");
     add_demo_bowl(demo, common);
     add_demo_chimes(demo, common);
+    add_demo_bar(demo, common);
+    add_demo_plate(demo, common);
+    add_demo_vibraphone(demo, common);
+    add_demo_pendulum(demo, common);
+    add_demo_sheet(demo, common);
+    add_demo_crinkle(demo, common);
     // The parser's own complaint would not name what was typed, nor what there is.
     demo.allow_extras();
     demo.callback([&demo] {
