@@ -37,6 +37,7 @@ void add_demo(CLI::App& app, Common& common);
 void add_inspect(CLI::App& app, Common& common);
 void add_integrators(CLI::App& app, Common& common);
 void add_modes(CLI::App& app, Common& common);
+void add_strike(CLI::App& app, Common& common);
 void add_bench(CLI::App& app, Common& common);
 
 } // namespace softsound

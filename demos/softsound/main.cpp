@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
     softsound::add_inspect(app, common);
     softsound::add_integrators(app, common);
     softsound::add_modes(app, common);
+    softsound::add_strike(app, common);
     softsound::add_bench(app, common);
     CLI11_PARSE(app, argc, argv);
 
