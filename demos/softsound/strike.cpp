@@ -147,6 +147,7 @@ void add_strike(CLI::App& app, Common& common) {
     e.stage.ear[1] = -1;
     e.stage.ear[2] = 0.5;
     e.title = "struck";
+    e.top = 20000;
     CLI::App& strike =
         *app.add_subcommand("strike", "Strikes the body of a mesh and lets it ring, floating");
     strike.add_option("mesh", o.mesh, "Gmsh .msh, TetGen .node/.ele, legacy .vtk, Medit .mesh")

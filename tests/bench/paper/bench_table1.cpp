@@ -1,0 +1,80 @@
+// softsound bench table1: the source paper's table (P01, table 1) measured again. Each example
+// twice: on the paper's own terms (linear elements, node by node) for a twentieth of a second,
+// which is enough to time it, and by the demo's own defaults. Runs the softsound beside this
+// program.
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace {
+
+struct Example {
+    const char* name;
+    bool has_tiers;
+    double minutes; ///< CPU minutes a simulated second on a 350 MHz processor, as recalled; 0: none
+};
+constexpr Example kExamples[] = {{"bowl", true, 91},          {"bar", true, 240},
+                                 {"plate-center", true, 245}, {"vibraphone", true, 1310},
+                                 {"pendulum", false, 88},     {"sheet-stiff", true, 1042},
+                                 {"sheet-soft", false, 313},  {"crinkle", false, 0}};
+
+/// Runs a demo and prints its line. @return whether it ran.
+bool row(const std::string& softsound, const std::string& folder, const Example& e, bool paper) {
+    const std::string json = folder + "/" + e.name + ".json";
+    std::string command = softsound + " demo " + e.name + " --quiet --plot '' --out " + folder +
+                          "/table1.wav --json " + json;
+    if (paper)
+        command += " --seconds 0.05 --order 1";
+    if (paper && e.has_tiers)
+        command += " --tier explicit";
+    if (std::system(command.c_str()) != 0)
+        return false;
+    const auto r = nlohmann::json::parse(std::ifstream(json));
+    double cents = 0;
+    const bool heard = r.contains("theory_partials") && !r["theory_partials"].empty();
+    if (heard)
+        cents = r["theory_partials"][0]["cents"];
+    char error[32] = "-", recalled[32] = "-";
+    if (heard)
+        std::snprintf(error, sizeof error, "%+.0f cents", cents);
+    if (e.minutes > 0)
+        std::snprintf(recalled, sizeof recalled, "%.0f", e.minutes);
+    std::printf("| %s | %s | %.3g | %d / %d | %s | %.1f | %.2f | %.1f %% | %s | %s |\n", e.name,
+                paper ? "the paper's" : "ours", 1e6 * r["substep"].get<double>(),
+                r["nodes"].get<int>(), r["elements"].get<int>(),
+                r.contains("surface_elements") ? r["surface_elements"].dump().c_str() : "-",
+                r["cpu_seconds_per_second"].get<double>(),
+                r["audio_seconds"].get<double>() / r["seconds"].get<double>(),
+                100 * r["audio_share"].get<double>(), error, recalled);
+    std::fflush(stdout);
+    return true;
+}
+
+} // namespace
+
+int main(int argc, char**) {
+    if (argc > 1) {
+        std::printf(
+            "softsound bench table1: the source paper's table 1, measured again; minutes\n");
+        return 0;
+    }
+    namespace fs = std::filesystem;
+    const std::string softsound =
+        (fs::read_symlink("/proc/self/exe").parent_path() / "softsound").string();
+    char folder[] = "/tmp/softsound_table1_XXXXXX";
+    if (!mkdtemp(folder))
+        return 1;
+    std::printf("| example | terms | substep [us] | nodes / elements | surface | CPU s/s | audio "
+                "CPU s/s | audio share | first partial | the paper's CPU min/s, recalled |\n"
+                "|---|---|---|---|---|---|---|---|---|---|\n");
+    bool all = true;
+    for (const Example& e : kExamples)
+        for (const bool paper : {true, false})
+            all = row(softsound, folder, e, paper) && all;
+    fs::remove_all(folder);
+    return all ? 0 : 1;
+}
