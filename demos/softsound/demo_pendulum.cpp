@@ -166,6 +166,8 @@ void judge(nlohmann::ordered_json& results, const Performance& p, const Shown& s
             line = partial["measured"];
     constexpr double kFrom = 0.1;
     const Track track = follow(p.left, p.rate, line, kFrom, p.seconds);
+    if (track.time.empty())
+        return; // too short to follow anything
     std::vector<double> known;
     double mean = 0;
     for (const double t : track.time) {

@@ -16,6 +16,7 @@
 #include "softsound/demo.h"
 #include "softsound/exhibit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -65,7 +66,7 @@ void judge(nlohmann::ordered_json& results, const Performance& p, const Shown& s
     auto levels = nlohmann::ordered_json::array();
     double rest = -300, moving = -300;
     const std::span<const float> ring =
-        std::span(p.left).subspan(static_cast<std::size_t>(0.1 * p.rate));
+        std::span(p.left).subspan(std::min(p.left.size(), static_cast<std::size_t>(0.1 * p.rate)));
     for (std::size_t i = 0; i < std::size(kModes); ++i) {
         const double level = level_near(ring, p.rate, shown.predicted[i], 60);
         levels.push_back(level);

@@ -18,6 +18,7 @@
 #include "softsound/demo.h"
 #include "softsound/exhibit.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -97,7 +98,8 @@ void judge(nlohmann::ordered_json& results, const Performance& p, const Shown&) 
                 best = m.get<double>();
         return best;
     };
-    const auto ring = std::span(p.left).subspan(static_cast<std::size_t>(0.35 * p.rate));
+    const auto ring =
+        std::span(p.left).subspan(std::min(p.left.size(), static_cast<std::size_t>(0.35 * p.rate)));
     double swing = kLowest, level = -300;
     for (double f = kLowest; f < 0.8 * kFirst; f *= 1.02)
         if (const double here = level_near(ring, p.rate, f, 20); here > level) {
