@@ -19,8 +19,8 @@ double faded(double x) noexcept {
 } // namespace
 
 Resonators::Resonators(std::span<const double> omega, std::span<const double> decay, double rate)
-    : omega_(omega.begin(), omega.end()), decay_(decay.begin(), decay.end()),
-      damped_(omega.size()), angle_(omega.size()), cosine_(omega.size()), sine_(omega.size()) {
+    : omega_(omega.begin(), omega.end()), decay_(decay.begin(), decay.end()), damped_(omega.size()),
+      angle_(omega.size()), cosine_(omega.size()), sine_(omega.size()) {
     for (AlignedVector& row : tick_)
         row.assign(omega.size(), 0.0);
     for (std::size_t k = 0; k < size(); ++k) {

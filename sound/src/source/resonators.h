@@ -25,7 +25,7 @@ public:
 private:
     AlignedVector omega_, decay_, damped_;
     AlignedVector angle_, cosine_, sine_; ///< scratch
-    AlignedVector tick_[4]; ///< q from q, q from q', q' from q, q' from q'
+    AlignedVector tick_[4];               ///< q from q, q from q', q' from q, q' from q'
 };
 
 } // namespace ode::sound
