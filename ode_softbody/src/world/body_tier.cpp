@@ -40,7 +40,7 @@ constexpr double kLeastError = 1.4e-3;
 // Contact in modes: 16 substeps to the period of the highest audible tone.
 constexpr double kContactPace = 1 / (16 * kAudible);
 // What lies or rolls has no blow to resolve: sound alone asks for its substep.
-constexpr double kGentlePace = 1 / (8 * kAudible);
+constexpr double kGentlePace = 1 / (4 * kAudible);
 // Nodes are shown to observers eight times a period of the highest audible tone.
 constexpr double kWatchedPace = 1 / (8 * kAudible);
 constexpr double kGentle = 0.1; ///< [m/s]
