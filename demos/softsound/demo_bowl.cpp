@@ -22,6 +22,7 @@
 #include "plots/sound_picture.h"
 #include "scenes/drop.h"
 #include "softsound/demo.h"
+#include "softsound/exhibit.h"
 #include "softsound/impacts.h"
 #include "softsound/performance.h"
 
@@ -84,16 +85,6 @@ std::span<const float> longest_ring(const Performance& p, std::vector<double> im
             longest = std::span(p.left).subspan(first, end - first);
     }
     return longest;
-}
-
-nlohmann::ordered_json as_json(const std::vector<plots::Partial>& partials) {
-    auto out = nlohmann::ordered_json::array();
-    for (const plots::Partial& partial : partials)
-        out.push_back({{"predicted", partial.predicted},
-                       {"measured", partial.measured},
-                       {"cents", 1200 * std::log2(partial.measured / partial.predicted)},
-                       {"level_db", partial.level}});
-    return out;
 }
 
 void summarise(const nlohmann::ordered_json& r, const Performance& p, const Options& o) {

@@ -20,16 +20,6 @@ std::vector<double> modes_of(dSoftBodyID body, double top) {
     return modes;
 }
 
-nlohmann::ordered_json as_json(const std::vector<plots::Partial>& partials) {
-    auto out = nlohmann::ordered_json::array();
-    for (const plots::Partial& partial : partials)
-        out.push_back({{"predicted", partial.predicted},
-                       {"measured", partial.measured},
-                       {"cents", 1200 * std::log2(partial.measured / partial.predicted)},
-                       {"level_db", partial.level}});
-    return out;
-}
-
 std::span<const float> ring_of(const Performance& p, double from) {
     const auto first = std::min(p.left.size(), static_cast<std::size_t>(from * p.rate));
     return std::span(p.left).subspan(first);
@@ -59,6 +49,16 @@ void summarise(const nlohmann::ordered_json& r, const Exhibit& e) {
 }
 
 } // namespace
+
+nlohmann::ordered_json as_json(const std::vector<plots::Partial>& partials) {
+    auto out = nlohmann::ordered_json::array();
+    for (const plots::Partial& partial : partials)
+        out.push_back({{"predicted", partial.predicted},
+                       {"measured", partial.measured},
+                       {"cents", 1200 * std::log2(partial.measured / partial.predicted)},
+                       {"level_db", partial.level}});
+    return out;
+}
 
 void shape(dSoftBodyID body, const Exhibit& exhibit) {
     if (!dSoftBodySetOrder(body, exhibit.order) || !dSoftBodySetTier(body, exhibit.tier.c_str()))

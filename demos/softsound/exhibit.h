@@ -52,6 +52,9 @@ int run_exhibit(const Exhibit& exhibit, const Build& build, const Judge& judge,
 /// Sets order and tier, then holds or frees nothing. @throws scenes::Refused
 void shape(dSoftBodyID body, const Exhibit& exhibit);
 
+/// Partials as the results list them.
+nlohmann::ordered_json as_json(const std::vector<plots::Partial>& partials);
+
 /// Nodes of a body that a condition holds for, by their places now.
 std::vector<int> nodes_where(dSoftBodyID body, const std::function<bool(const dReal*)>& condition);
 

@@ -1,5 +1,6 @@
 // What an application may get wrong about a rigid body that is to sound: a sentence each.
 #include "support/rigid_ring.h"
+#include "support/soft_app.h"
 
 #include <gtest/gtest.h>
 
@@ -10,27 +11,8 @@
 namespace {
 
 using namespace ode;
+using test::Messages;
 using test::RigidRing;
-
-std::string& said() {
-    static std::string all;
-    return all;
-}
-void note(int, const char* text, va_list arguments) {
-    char line[1000];
-    std::vsnprintf(line, sizeof line, text, arguments);
-    said() += line;
-    said() += '\n';
-}
-
-/// Messages while it lives.
-struct Listening {
-    Listening() {
-        said().clear();
-        dSetMessageHandler(note);
-    }
-    ~Listening() { dSetMessageHandler(nullptr); }
-};
 
 dBodyID box_body(RigidRing& app, dReal x, dReal y, dReal z) {
     dMass mass;
@@ -49,12 +31,11 @@ TEST(RigidInput, AMeshLargerThanTheBody) {
     RigidRing app;
     const dBodyID body = box_body(app, 0.2, 0.03, 0.02);
     const dSoftSolid steel = RigidRing::metal();
-    const Listening listening;
+    const Messages messages;
     const soft::MeshHandle twice = bar(2);
     EXPECT_EQ(dSoundModalCreate(body, twice, &steel), nullptr);
-    EXPECT_NE(said().find("the mesh is larger than the body: 0.4 m along x, its geoms 0.2 m"),
-              std::string::npos)
-        << said();
+    EXPECT_GT(Messages::with("the mesh is larger than the body: 0.4 m along x, its geoms 0.2 m"), 0)
+        << Messages::text();
 }
 
 TEST(RigidInput, ACentreOfMassThatIsOff) {
@@ -63,9 +44,9 @@ TEST(RigidInput, ACentreOfMassThatIsOff) {
     dGeomSetOffsetPosition(dBodyGetFirstGeom(body), 0.1, 0, 0);
     const dSoftSolid steel = RigidRing::metal();
     const soft::MeshHandle mesh = bar();
-    const Listening listening;
+    const Messages messages;
     EXPECT_EQ(dSoundModalCreate(body, mesh, &steel), nullptr);
-    EXPECT_NE(said().find("centre of mass is off"), std::string::npos) << said();
+    EXPECT_GT(Messages::with("centre of mass is off"), 0) << Messages::text();
 }
 
 TEST(RigidInput, ANegativeMass) {
@@ -74,9 +55,9 @@ TEST(RigidInput, ANegativeMass) {
     dSoftSolid anti = RigidRing::metal();
     anti.density = -7850;
     const soft::MeshHandle mesh = bar();
-    const Listening listening;
+    const Messages messages;
     EXPECT_EQ(dSoundModalCreate(body, mesh, &anti), nullptr);
-    EXPECT_NE(said().find("density"), std::string::npos) << said();
+    EXPECT_GT(Messages::with("density"), 0) << Messages::text();
 }
 
 TEST(RigidInput, AnotherMassThanTheMeshs) {
@@ -87,9 +68,9 @@ TEST(RigidInput, AnotherMassThanTheMeshs) {
     dBodySetMass(body, &mass);
     const dSoftSolid steel = RigidRing::metal();
     const soft::MeshHandle mesh = bar();
-    const Listening listening;
+    const Messages messages;
     EXPECT_NE(dSoundModalCreate(body, mesh, &steel), nullptr) << "it is heard, and told";
-    EXPECT_NE(said().find("the body has 5 kg"), std::string::npos) << said();
+    EXPECT_GT(Messages::with("the body has 5 kg"), 0) << Messages::text();
 }
 
 // Two tetrahedra that share one edge: four faces meet there, and no side is out.
@@ -100,11 +81,11 @@ TEST(RigidInput, AnOpenSurface) {
     const int tet[] = {0, 2, 3, 1, 0, 4, 5, 1};
     const soft::MeshHandle mesh(dSoftMeshCreate(node, 6, tet, 2));
     const dSoftSolid steel = RigidRing::metal();
-    const Listening listening;
+    const Messages messages;
     if (mesh) {
         EXPECT_EQ(dSoundModalCreate(body, mesh, &steel), nullptr);
     }
-    EXPECT_NE(said().find("open"), std::string::npos) << said();
+    EXPECT_GT(Messages::with("open"), 0) << Messages::text();
 }
 
 TEST(RigidInput, NoAudibleMode) {
@@ -112,10 +93,10 @@ TEST(RigidInput, NoAudibleMode) {
     const dBodyID ball = app.add_sphere(0.005, 7850 * 5.236e-7, 1);
     const soft::MeshHandle mesh(dSoftMeshCreateSphere(0.005, 2));
     const dSoftSolid steel = RigidRing::metal();
-    const Listening listening;
+    const Messages messages;
     const dSoundModalID voice = dSoundModalCreate(ball, mesh, &steel);
-    ASSERT_NE(voice, nullptr) << said();
-    EXPECT_NE(said().find("no mode below 22 kHz"), std::string::npos) << said();
+    ASSERT_NE(voice, nullptr) << Messages::text();
+    EXPECT_GT(Messages::with("no mode below 22 kHz"), 0) << Messages::text();
     EXPECT_EQ(dSoundModalGetModes(voice, 0, nullptr, nullptr), 0);
 }
 
@@ -123,14 +104,14 @@ TEST(RigidInput, StrokesAndGainsThatAreNone) {
     RigidRing app;
     const RigidRing::Bar it = app.add_bar(0, 0, 0);
     const dVector3 at = {0, 0, 0}, up = {0, 0, 1}, none = {0, 0, dReal(NAN)};
-    const Listening listening;
+    const Messages messages;
     EXPECT_EQ(dSoundModalStrike(it.voice, at, none, 1e-4), 0);
     EXPECT_EQ(dSoundModalStrike(it.voice, at, up, 0), 0);
     EXPECT_EQ(dSoundModalSetGain(it.voice, -1), 0);
     const soft::MeshHandle mesh = bar();
     const dSoftSolid steel = RigidRing::metal();
     EXPECT_EQ(dSoundModalCreate(it.body, mesh, &steel), nullptr);
-    EXPECT_NE(said().find("has a voice already"), std::string::npos) << said();
+    EXPECT_GT(Messages::with("has a voice already"), 0) << Messages::text();
 }
 
 } // namespace

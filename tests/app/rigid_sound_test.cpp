@@ -1,5 +1,6 @@
 // Rigid bodies of ODE that sound when contact joints strike them, through the public functions.
 #include "support/rigid_ring.h"
+#include "support/soft_app.h"
 
 #include <gtest/gtest.h>
 
@@ -41,17 +42,6 @@ double lowest_mode(dSoundModalID voice) {
     dReal f = 0;
     dSoundModalGetModes(voice, 1, &f, nullptr);
     return f;
-}
-
-std::string& said() {
-    static std::string all;
-    return all;
-}
-void note(int, const char* text, va_list arguments) {
-    char line[1000];
-    std::vsnprintf(line, sizeof line, text, arguments);
-    said() += line;
-    said() += '\n';
 }
 
 using Step = int (*)(dWorldID, dReal);
@@ -151,19 +141,8 @@ TEST(RigidRing, LeavesTheApplicationsFeedbackAlone) {
 
 // Two bodies' sound is the sum of each alone.
 TEST(RigidRing, SuperposesBodies) {
-    const auto run = [](bool left, bool right) {
-        RigidRing app;
-        const RigidRing::Bar a = app.add_bar(0, 0.3, 0), b = app.add_bar(0, -0.3, 0.1);
-        app.step(0.005);
-        const dVector3 at[2] = {{0.08, 0.3, 0}, {-0.03, -0.3, 0.1}}, blow = {0, 0, 0.01};
-        if (left)
-            dSoundModalStrike(a.voice, at[0], blow, 1e-4);
-        if (right)
-            dSoundModalStrike(b.voice, at[1], blow, 2e-4);
-        app.run(0.1, 0.005);
-        return app.heard();
-    };
-    const std::vector<double> both = run(true, true), a = run(true, false), b = run(false, true);
+    const std::vector<double> both = test::two_bars(true, true), a = test::two_bars(true, false),
+                              b = test::two_bars(false, true);
     ASSERT_GT(peak(a), 1e-4);
     double off = 0;
     for (std::size_t i = 0; i < both.size(); ++i)
@@ -193,11 +172,9 @@ TEST(RigidRing, NeedsSomebodyWhoListensToItsWorld) {
     const dBodyID body = app.add_sphere(0.1, 1, 0);
     const soft::MeshHandle mesh(dSoftMeshCreateSphere(0.1, 1));
     const dSoftSolid steel = dSoftSolidDefault();
-    said().clear();
-    dSetMessageHandler(note);
+    const test::Messages messages;
     EXPECT_EQ(dSoundModalCreate(body, mesh, &steel), nullptr);
-    dSetMessageHandler(nullptr);
-    EXPECT_NE(said().find("dSoundWorldCreate() first"), std::string::npos) << said();
+    EXPECT_EQ(test::Messages::with("dSoundWorldCreate() first"), 1) << test::Messages::text();
 }
 
 } // namespace

@@ -77,4 +77,18 @@ public:
     dSoundListenerID ears;
 };
 
+/// What is heard of two bars of which either is struck.
+inline std::vector<double> two_bars(bool left, bool right) {
+    RigidRing app;
+    const RigidRing::Bar a = app.add_bar(0, 0.3, 0), b = app.add_bar(0, -0.3, 0.1);
+    app.step(0.005);
+    const dVector3 at[2] = {{0.08, 0.3, 0}, {-0.03, -0.3, 0.1}}, blow = {0, 0, 0.01};
+    if (left)
+        dSoundModalStrike(a.voice, at[0], blow, 1e-4);
+    if (right)
+        dSoundModalStrike(b.voice, at[1], blow, 2e-4);
+    app.run(0.1, 0.005);
+    return app.heard();
+}
+
 } // namespace ode::test

@@ -149,19 +149,8 @@ void steps() {
 }
 
 void linearity() {
-    const auto run = [](bool left, bool right) {
-        RigidRing app;
-        const RigidRing::Bar a = app.add_bar(0, 0.3, 0), b = app.add_bar(0, -0.3, 0.1);
-        app.step(0.005);
-        const dVector3 at[2] = {{0.08, 0.3, 0}, {-0.03, -0.3, 0.1}}, blow = {0, 0, 0.01};
-        if (left)
-            dSoundModalStrike(a.voice, at[0], blow, 1e-4);
-        if (right)
-            dSoundModalStrike(b.voice, at[1], blow, 2e-4);
-        app.run(0.1, 0.005);
-        return app.heard();
-    };
-    const std::vector<double> both = run(true, true), a = run(true, false), b = run(false, true);
+    const std::vector<double> both = test::two_bars(true, true), a = test::two_bars(true, false),
+                              b = test::two_bars(false, true);
     double off = 0, most = 0;
     for (std::size_t i = 0; i < both.size(); ++i) {
         off = std::max(off, std::fabs(both[i] - a[i] - b[i]));

@@ -1,0 +1,70 @@
+// What is asked of a motion in modes: energies, bounds, what a push meets.
+#include "reduced/modal_motion.h"
+#include "reduced/mode_rows.h"
+
+#include <cmath>
+
+namespace ode::soft {
+
+double ModalMotion::vibration_energy() const noexcept {
+    double sum = 0;
+    for (std::size_t k = 0; k < awake_; ++k) {
+        const double a = basis_->omega[k] * state_.amplitude[k];
+        sum += a * a + state_.rate[k] * state_.rate[k];
+    }
+    return sum / 2;
+}
+
+double ModalMotion::rigid_energy() const noexcept {
+    return (basis_->total_mass * state_.velocity.squaredNorm() + spin().dot(state_.spin_momentum)) /
+           2;
+}
+
+double ModalMotion::largest_displacement() const noexcept {
+    double sum = 0;
+    for (std::size_t k = 0; k < awake_; ++k) {
+        const double ahead = state_.rate[k] / basis_->omega[k];
+        sum +=
+            basis_->reach[k] * std::sqrt(state_.amplitude[k] * state_.amplitude[k] + ahead * ahead);
+    }
+    return sum;
+}
+
+double ModalMotion::largest_speed() const noexcept {
+    double sum = 0;
+    for (std::size_t k = 0; k < awake_; ++k) {
+        const double ahead = state_.amplitude[k] * basis_->omega[k];
+        sum += basis_->reach[k] * std::sqrt(state_.rate[k] * state_.rate[k] + ahead * ahead);
+    }
+    return sum + state_.velocity.norm() + basis_->radius * spin().norm();
+}
+
+double ModalMotion::displacement_envelope(std::span<const int> nodes) noexcept {
+    for (std::size_t k = 0; k < awake_; ++k)
+        settled_[k] = state_.rate[k] / basis_->omega[k];
+    const Spread moved(*basis_, awake(state_.amplitude), single_[0]),
+        swing(*basis_, awake(settled_), single_[1]);
+    double most = 0;
+    for (const int node : nodes) {
+        const auto n = static_cast<std::size_t>(node);
+        most = std::fmax(most, moved.at(n).squaredNorm() + swing.at(n).squaredNorm());
+    }
+    return std::sqrt(most);
+}
+
+double ModalMotion::inverse_mass(std::size_t node, const Vec3& direction) const noexcept {
+    double sum = 0;
+    for (std::size_t k = 0; k < basis_->modes; ++k) {
+        double push = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            push +=
+                static_cast<double>(basis_->row(node, axis)[k]) * direction[static_cast<int>(axis)];
+        sum += push * push;
+    }
+    if (basis_->held)
+        return sum;
+    const Vec3 arm = basis_->rest[node].cross(direction);
+    return sum + 1 / basis_->total_mass + arm.dot(inverse_inertia_ * arm);
+}
+
+} // namespace ode::soft
