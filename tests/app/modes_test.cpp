@@ -132,6 +132,12 @@ TEST_F(Modes, RefinementKeepsTheToleranceAndTheNodes) {
     EXPECT_GE(info_of(fine).refinements, 1);
 }
 
+TEST_F(Modes, CacheIsWhereTheEnvironmentSays) {
+    EXPECT_EQ(dSoftGetCacheDirectory(), nullptr); // set to nothing above
+    setenv("ODE_SOFTBODY_CACHE", "/a", 1);
+    EXPECT_STREQ(dSoftGetCacheDirectory(), "/a");
+}
+
 TEST_F(Modes, MistakesAndCancellingGiveNothing) {
     const MeshHandle mesh(dSoftMeshCreateBox(1, 1, 1, 2, 2, 2));
     options.progress = [](void* calls, const char*, dReal, int) {

@@ -31,8 +31,7 @@ typedef struct dSoftModesOptions {
     dReal max_frequency; /**< [Hz], default 22000; dInfinity needs a count */
     int rebuilt_curves;  /**< 1 (default): facets that meet at less than 50 degrees are taken for a
                               smooth surface, and its curvature is rebuilt; 0: facets are meant */
-    int use_cache;       /**< 1 (default): results are kept in $ODE_SOFTBODY_CACHE, else
-                              $XDG_CACHE_HOME/ode_softbody, else ~/.cache/ode_softbody */
+    int use_cache;       /**< 1 (default): results are kept, see dSoftGetCacheDirectory() */
     dReal tolerance;     /**< [cents]: refine until no band of the first `tolerance_count` modes is
                               wider; 0 (default): take the mesh as it is */
     int tolerance_count; /**< default 8 */
@@ -68,6 +67,12 @@ DSOFT_API int dSoftModesGetT60(dSoftModesID modes, const dReal** first);
  * @param first  out: x of node 0.  @param stride out: dReals from node to node.
  * @return node count; 0 for a mode that there isn't. */
 DSOFT_API int dSoftModesGetShape(dSoftModesID modes, int mode, const dReal** first, int* stride);
+
+/** Where results that take long are kept from run to run: $ODE_SOFTBODY_CACHE, else
+ * $XDG_CACHE_HOME/ode_softbody, else ~/.cache/ode_softbody. Modes, and tables of how they sound.
+ * @return NULL where ODE_SOFTBODY_CACHE is set to nothing, or there is no home; else borrowed until
+ * this thread asks again. */
+DSOFT_API const char* dSoftGetCacheDirectory(void);
 
 /** The body that was solved. Start with struct_size = sizeof(dSoftModesInfo). */
 typedef struct dSoftModesInfo {

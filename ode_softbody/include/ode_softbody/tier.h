@@ -25,7 +25,7 @@ extern "C" {
  * "auto"      modes while the waveform is expected within dSoftBodySetWaveformTolerance() of the
  *             explicit one's, else explicit; the body changes when it isn't in contact
  * Takes effect with the next step. Modes are found once (fractions of a second to seconds), shared
- * by like bodies and kept in the cache that dSoftModesOptions names.
+ * by like bodies and kept, see dSoftGetCacheDirectory().
  * @return 0 for an unknown name, after listing the known ones. */
 DSOFT_API int dSoftBodySetTier(dSoftBodyID body, const char* name);
 /** The name chosen. */

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 
 struct dxSoftModes {
     ode::soft::TolerantModes result;
@@ -116,6 +117,14 @@ dSoftModesID dSoftModesCompute(dSoftMeshID id, const dSoftSolid* solids, int sol
         } catch (const Cancelled&) {
             throw InputError("cancelled by the progress callback");
         }
+    });
+}
+
+const char* dSoftGetCacheDirectory(void) {
+    return guarded(__func__, static_cast<const char*>(nullptr), []() -> const char* {
+        thread_local std::string directory;
+        directory = cache_directory().string();
+        return directory.empty() ? nullptr : directory.c_str();
     });
 }
 

@@ -50,7 +50,8 @@ DSOUND_API void dSoundWorldDestroy(dSoundWorldID world);
  * "paper"     P01 equation 10 with its DC block: z v_n a cos(theta) / R            [Pa m]; under
  *             "sinc" sampling the DC block acts once an ear, under "paper" on every triangle
  * Bodies that move in their modes (tier.h) are heard by a table of the rule chosen, "monopole",
- * "kirchhoff" or "transfer", outside the sphere round them; made when one is first heard. Their
+ * "kirchhoff" or "transfer", outside the sphere round them; made when one is first heard and kept
+ * between runs (dSoftGetCacheDirectory()). Their
  * motion as a whole sounds as a sphere's of the same dipole does. Monopole: within 0.3 dB of a
  * pulsating sphere for ka <= 10, 1.1 dB of a shaking one, 3 dB of a bending bar (softsound bench
  * radiation); nearer than a sixth of a wavelength a shaking body is louder. Under "paper" sampling
@@ -119,7 +120,7 @@ DSOUND_API int dSoundSetAlarm(dSoundWorldID world, dSoundAlarmCallback* callback
  * (dJointSetFeedback) the library takes its own.
  *
  * The mesh's centre of mass lies in the body's position, its axes are the body's. Modes are found
- * once (some seconds for 1000 elements; kept in the cache that dSoftModesOptions names), and shared
+ * once (some seconds for 1000 elements; kept as dSoftGetCacheDirectory() says), and shared
  * by bodies of the same mesh and solid. The mesh and the solid are the caller's, and may go.
  *
  * Contact: ODE's impulse of a step becomes a pulse of the length that Hertz's law gives for both

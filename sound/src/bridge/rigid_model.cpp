@@ -1,5 +1,6 @@
 #include "bridge/rigid_model.h"
 
+#include "bridge/kept_tables.h"
 #include "mix/voice_model.h"
 #include "transfer/coarsen.h"
 
@@ -105,7 +106,8 @@ RigidModels::voice(const std::shared_ptr<const RigidModel>& model, const Setting
     BoundaryMesh mesh;
     mesh.node.assign(model->surface.nodes().begin(), model->surface.nodes().end());
     mesh.triangle.assign(model->surface.triangles().begin(), model->surface.triangles().end());
-    auto made = make_voice_model(model->omega, model->decay, mesh, model->shape, settings);
+    auto made =
+        make_voice_model(model->omega, model->decay, mesh, model->shape, settings, kept_tables());
     found->voice = made;
     return made;
 }

@@ -1,5 +1,6 @@
 #include "bridge/sound_world.h"
 
+#include "bridge/kept_tables.h"
 #include "mix/voice_model.h"
 
 #include <ode/error.h>
@@ -117,8 +118,11 @@ void SoundWorld::on_substep(const dSoftSubstep& substep) noexcept {
         }
         const std::span<const int> triangle(substep.triangle,
                                             3 * static_cast<std::size_t>(substep.triangle_count));
-        if (!triangle.empty())
-            cost_.run([&] { scene_.push(substep.body, triangle, view); });
+        const auto push = [&] { scene_.push(substep.body, triangle, view); };
+        if (!triangle.empty() && scene_.has_heard(substep.body))
+            cost_.run(push);
+        else if (!triangle.empty())
+            cost_.run_whole(push); // what is worked out once a body
     } catch (const std::exception& e) {
         failed_ = true;
         dMessage(0, "sound stops here: %s", e.what());
@@ -149,7 +153,7 @@ std::shared_ptr<const ModalVoiceModel> SoundWorld::voice_model(dSoftBodyID body)
                     static_cast<double>(basis.shape[(3 * n + axis) * basis.stride + k]));
     const auto modes = static_cast<std::size_t>(basis.mode_count);
     const auto made = make_voice_model({basis.omega, modes}, {basis.decay, modes}, mesh, shape,
-                                       scene_.settings());
+                                       scene_.settings(), kept_tables());
     place = made;
     return made;
 }
@@ -168,7 +172,7 @@ void SoundWorld::on_modal(const dSoftModalState& state) noexcept {
         const int triangles = dSoftBodyGetTriangles(state.body, &triangle);
         cost_.run([&] {
             scene_.push(state.body, {triangle, 3 * static_cast<std::size_t>(triangles)}, view,
-                        [&] { return voice_model(state.body); });
+                        [&] { return cost_.run_once([&] { return voice_model(state.body); }); });
         });
     } catch (const std::exception& e) {
         failed_ = true;

@@ -55,12 +55,18 @@ void Scene::remove_listener(Listener& listener) noexcept {
     }
 }
 
-Scene::Body& Scene::find(const void* body, std::span<const int> triangle) {
+Scene::Body* Scene::known(const void* body) noexcept {
     if (hint_ < bodies_.size() && bodies_[hint_].key == body)
-        return bodies_[hint_];
+        return &bodies_[hint_];
     for (hint_ = 0; hint_ < bodies_.size(); ++hint_)
         if (bodies_[hint_].key == body)
-            return bodies_[hint_];
+            return &bodies_[hint_];
+    return nullptr;
+}
+
+Scene::Body& Scene::find(const void* body, std::span<const int> triangle) {
+    if (Body* own = known(body))
+        return *own;
     std::unique_ptr<BodySource> source;
     if (settings_.sampling == Sampling::kSinc)
         source = std::make_unique<SurfaceFlow>(
@@ -88,6 +94,7 @@ void Scene::push(const void* body, std::span<const int> triangle, const SurfaceV
     if (own.gain == 0.0 && own.now == 0.0) // silenced: the source will take it for sleep
         return;
     sounding_ = &own;
+    own.heard = true;
     if (own.source->push(view, *this))
         ++count_.gathers;
 }

@@ -39,6 +39,11 @@ public:
     void remove_listener(Listener& listener) noexcept;
     std::size_t listeners() const noexcept { return listeners_.size(); }
 
+    /// Whether a substep of the body has come before: the first takes far longer than the others.
+    bool has_heard(const void* body) noexcept {
+        const Body* own = known(body);
+        return own && own->heard;
+    }
     /// One substep of one body. @param triangle  as in Surface; read at the first substep alone.
     void push(const void* body, std::span<const int> triangle, const SurfaceView& view);
     /// The same of a body that moves in its modes. @param model  asked for at the first view alone.
@@ -108,8 +113,9 @@ private:
             return (!source || source->is_silent()) && (!voice || voice->is_silent()) &&
                    (!struck || struck->is_silent());
         }
-        double gain; ///< wanted
-        double now;  ///< heard
+        double gain;        ///< wanted
+        double now;         ///< heard
+        bool heard = false; ///< by its nodes, at least once
     };
     struct Gain {
         const void* key;
@@ -122,6 +128,7 @@ private:
     void on_modal_run(const ModalRun& run) noexcept override;
     void end_voice(Body& body) noexcept;
     double next_gain(double samples_per_second) noexcept;
+    Body* known(const void* body) noexcept;
     Body& find(const void* body, std::span<const int> triangle);
     void begin_step(double time);
 

@@ -3,6 +3,7 @@
 #include "source/node_rule.h"
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace ode::sound {
@@ -28,6 +29,35 @@ void find_levels(StruckVoiceModel& model) {
         level = std::sqrt(level);
 }
 
+bool solves(const Settings& settings) { return settings.radiation == Radiation::kTransfer; }
+
+Leaning leaning_of(const Settings& settings) {
+    return hears_modes(settings) ? radiation_leaning(settings.radiation) : Leaning::kCarried;
+}
+
+TransferTable make_table(const ModalSurface& surface, const Settings& settings) {
+    const Air& air = settings.air;
+    if (!solves(settings))
+        return node_table(surface, leaning_of(settings), air, settings.send_rate());
+    TransferOptions options;
+    options.density = air.density;
+    options.speed = air.speed;
+    return make_transfer_table(surface, options);
+}
+
+/// All that make_table() reads but the surface.
+std::string rule_of(const Settings& settings) {
+    char text[128];
+    const Air& air = settings.air;
+    if (solves(settings))
+        std::snprintf(text, sizeof text, "transfer %a %a", air.density, air.speed);
+    else
+        std::snprintf(text, sizeof text, "nodes %d %a %a %a",
+                      static_cast<int>(leaning_of(settings)), air.density, air.speed,
+                      settings.send_rate());
+    return text;
+}
+
 } // namespace
 
 bool hears_modes(const Settings& settings) noexcept {
@@ -36,11 +66,10 @@ bool hears_modes(const Settings& settings) noexcept {
                                                     settings.radiation == Radiation::kTransfer);
 }
 
-std::shared_ptr<const StruckVoiceModel> make_voice_model(std::span<const double> omega,
-                                                         std::span<const double> decay,
-                                                         const BoundaryMesh& mesh,
-                                                         std::span<const double> shape,
-                                                         const Settings& settings) {
+std::shared_ptr<const StruckVoiceModel>
+make_voice_model(std::span<const double> omega, std::span<const double> decay,
+                 const BoundaryMesh& mesh, std::span<const double> shape, const Settings& settings,
+                 const TableCache& cache) {
     auto model = std::make_shared<StruckVoiceModel>();
     model->omega.assign(omega.begin(), omega.end());
     model->decay.assign(decay.begin(), decay.end());
@@ -51,16 +80,8 @@ std::shared_ptr<const StruckVoiceModel> make_voice_model(std::span<const double>
         surface.shape.assign(shape.begin(), shape.end());
         for (const double w : omega)
             surface.frequency.push_back(w / (2.0 * std::numbers::pi));
-        if (settings.radiation == Radiation::kTransfer) {
-            TransferOptions options;
-            options.density = air.density;
-            options.speed = air.speed;
-            model->table = make_transfer_table(surface, options);
-        } else {
-            const Leaning leaning =
-                hears_modes(settings) ? radiation_leaning(settings.radiation) : Leaning::kCarried;
-            model->table = node_table(surface, leaning, air, settings.send_rate());
-        }
+        model->table =
+            cache.get(surface, rule_of(settings), [&] { return make_table(surface, settings); });
     } else {
         model->table.centre = mesh.centre();
         model->table.radius = mesh.radius(model->table.centre);

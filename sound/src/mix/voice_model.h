@@ -2,6 +2,7 @@
 
 #include "mix/settings.h"
 #include "source/struck_voice.h"
+#include "transfer/table_cache.h"
 
 #include <memory>
 
@@ -15,9 +16,11 @@ bool hears_modes(const Settings& settings) noexcept;
 /// @param omega, decay  [rad/s] ascending, [1/s].
 /// @param mesh   in the body's frame, which it turns about the origin of.
 /// @param shape  x y z of every node, mode after mode [kg^-1/2].
+/// @param cache  of tables; the default keeps none.
 std::shared_ptr<const StruckVoiceModel>
 make_voice_model(std::span<const double> omega, std::span<const double> decay,
-                 const BoundaryMesh& mesh, std::span<const double> shape, const Settings& settings);
+                 const BoundaryMesh& mesh, std::span<const double> shape, const Settings& settings,
+                 const TableCache& cache = {});
 
 /// A body's surface in numbers of its own.
 struct SurfaceNumbers {
