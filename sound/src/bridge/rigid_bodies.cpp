@@ -191,9 +191,10 @@ void RigidBodies::meet(RigidTouch& touch, double h, Scene& scene, RigidModels& m
         if (side[i]) {
             const StruckSurface& surface = side[i]->model->surface;
             const RigidMotion& motion = touch.motion[i];
-            place[i] =
-                surface.nearest(motion.place_in_frame(touch.position),
-                                motion.into_frame(i == 0 ? Vec3(-touch.normal) : touch.normal));
+            place[i] = surface.nearest(
+                motion.place_in_frame(touch.position),
+                motion.into_frame(i == 0 ? Vec3(-touch.normal) : touch.normal), side[i]->likely);
+            side[i]->likely = place[i].triangle;
             elastic[i] = side[i]->model->elastic;
             curvature += surface.curvature(place[i]);
             reach = std::max(reach, surface.radius());
@@ -208,39 +209,67 @@ void RigidBodies::meet(RigidTouch& touch, double h, Scene& scene, RigidModels& m
     const double pressed =
         contact_time(blow->mass, curvature, contact_modulus(elastic[0], elastic[1]), blow->speed);
     const double duration = blow->goes_on ? std::max(pressed, 2.0 * h) : pressed;
-    double taken = 0.0; // by the modes of both [J]
+    // What takes longer than a body's slowest wave bends it and doesn't ring it.
     bool any = false;
     for (int i = 0; i < 2; ++i) {
         if (!side[i])
             continue;
-        const RigidModel& model = *side[i]->model;
-        std::fill(side[i]->push.begin(), side[i]->push.end(), 0.0f);
-        model.surface.project(place[i], touch.motion[i].into_frame(blow->impulse), side[i]->push);
-        for (std::size_t k = 0; k < model.omega.size(); ++k)
-            taken += 0.5 * std::pow(static_cast<double>(side[i]->push[k]) *
-                                        pulse_spectrum(model.omega[k] * duration),
-                                    2);
-        // What takes longer than a body's slowest wave bends it and doesn't ring it.
         constexpr double kHeard = 0.01;
-        const double slowest = model.omega.empty() ? kHearing : model.omega.front();
-        any = any || pulse_spectrum(std::min(slowest, kHearing) * duration) > kHeard;
+        const std::vector<double>& omega = side[i]->model->omega;
+        const double slowest = omega.empty() ? kHearing : std::min(omega.front(), kHearing);
+        any = any || pulse_spectrum(slowest * duration) > kHeard;
     }
     if (!any)
         return;
-    const double share = taken > blow->energy ? std::sqrt(blow->energy / taken) : 1.0;
+    if (stroke_.given > 0.0 &&
+        (stroke_.side[0] != side[0] || stroke_.side[1] != side[1] || stroke_.partner != partner ||
+         std::fabs(stroke_.time - blow->time) > std::max(Stroke::kAtOnce, duration)))
+        deal(scene, models);
+    Stroke& stroke = stroke_;
+    stroke.partner = partner;
+    const double impulse = blow->impulse.norm();
+    const double part = impulse / (stroke.given + impulse);
     for (int i = 0; i < 2; ++i) {
+        stroke.side[i] = side[i];
         if (!side[i])
             continue;
+        if (stroke.given == 0.0) {
+            std::fill(side[i]->push.begin(), side[i]->push.end(), 0.0f);
+            stroke.jerk[i].setZero();
+        }
         ++side[i]->blows;
-        const double sign = i == 0 ? 1.0 : -1.0;
-        for (float& push : side[i]->push)
-            push *= static_cast<float>(sign * share);
         const RigidMotion& motion = touch.motion[i];
-        voice(*side[i], scene, models)
-            .strike(blow->time, duration, side[i]->push,
-                    motion.jerk(motion.place_in_frame(touch.position),
-                                motion.into_frame(sign * blow->impulse)));
+        const Vec3 along = motion.into_frame(i == 0 ? blow->impulse : Vec3(-blow->impulse));
+        side[i]->model->surface.project(place[i], along, side[i]->push);
+        stroke.jerk[i] += motion.jerk(motion.place_in_frame(touch.position), along);
     }
+    stroke.given += impulse;
+    stroke.time += part * (blow->time - stroke.time);
+    stroke.duration += part * (duration - stroke.duration);
+    stroke.energy += blow->energy;
+}
+
+void RigidBodies::deal(Scene& scene, RigidModels& models) {
+    if (!(stroke_.given > 0.0))
+        return;
+    double taken = 0.0; // by the modes of both [J]
+    for (const RigidBody* side : stroke_.side)
+        for (std::size_t k = 0; side && k < side->push.size(); ++k) {
+            const double speed = static_cast<double>(side->push[k]) *
+                                 pulse_spectrum(side->model->omega[k] * stroke_.duration);
+            taken += 0.5 * speed * speed;
+        }
+    const double share = taken > stroke_.energy ? std::sqrt(stroke_.energy / taken) : 1.0;
+    for (int i = 0; i < 2; ++i) {
+        RigidBody* const side = stroke_.side[i];
+        if (!side)
+            continue;
+        for (float& push : side->push)
+            push *= static_cast<float>(share);
+        voice(*side, scene, models)
+            .strike(stroke_.time, stroke_.duration, side->push, stroke_.jerk[i]);
+    }
+    stroke_ = {};
 }
 
 void RigidBodies::end_step(double time, Scene& scene, RigidModels& models) {
@@ -250,6 +279,7 @@ void RigidBodies::end_step(double time, Scene& scene, RigidModels& models) {
         voice(*own, scene, models);
     for (RigidTouch& touch : touches_.all())
         meet(touch, h, scene, models);
+    deal(scene, models);
     for (const auto& own : body_)
         std::erase_if(own->known, [&](const RigidBody::Known& known) {
             return begin_ - known.seen > (Blow::kFlutter + 1.0) * std::max(h, before_);

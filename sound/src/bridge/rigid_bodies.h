@@ -27,7 +27,24 @@ struct RigidBody {
     };
     std::vector<Known> known;
     std::vector<float> push; ///< scratch, one a mode
+    int likely = 0;          ///< triangle that was touched last
     unsigned long blows = 0; ///< that it got
+};
+
+/// Blows that two bodies deal each other in one step and nearly at once: one pulse of the sum. What
+/// each gives the modes stands in RigidBody::push of either side.
+struct Stroke {
+    /// Two clicks closer than this are heard as one [s] (I. J. Hirsh, J. Acoust. Soc. Am. 31, 1959:
+    /// 2 ms).
+    static constexpr double kAtOnce = 1e-3;
+
+    RigidBody* side[2] = {}; ///< null: has no voice
+    const void* partner = nullptr;
+    double given = 0.0;      ///< sum of impulses [N s]; 0: there is no stroke
+    double time = 0.0;       ///< mean, weighed by impulse [s]
+    double duration = 0.0;   ///< likewise
+    double energy = 0.0;     ///< sum [J]
+    RigidSound::Six jerk[2]; ///< in each body's frame
 };
 
 /// Rigid bodies that sound, and the blows that ODE's contact joints deal them.
@@ -65,6 +82,8 @@ private:
     void list();
     RigidBody* find(dBodyID body) const noexcept;
     void meet(RigidTouch& touch, double h, Scene& scene, RigidModels& models);
+    /// Lets the pending stroke be heard.
+    void deal(Scene& scene, RigidModels& models);
     bool locate(RigidTouch& touch) const noexcept;
 
     std::vector<std::shared_ptr<RigidBody>> body_;
@@ -72,6 +91,7 @@ private:
     std::map<dGeomID, Elastic> elastic_;
     Elastic default_elastic_;
     RigidTouches touches_;
+    Stroke stroke_;       ///< not dealt yet
     double begin_ = 0.0;  ///< of the present step [s]
     double before_ = 0.0; ///< length of the step before [s]
 };

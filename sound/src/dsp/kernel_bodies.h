@@ -2,6 +2,8 @@
 // it, so that the linker never hands AVX code to a machine without it. No standard container here.
 #include "dsp/kernels.h"
 
+#include <utility>
+
 #if defined(__AVX2__)
 #include <immintrin.h>
 #endif
@@ -378,6 +380,11 @@ double splat_run(const SplatSurface& surface, const SplatEar& ear) {
 }
 
 } // namespace
+} // namespace ode::sound::ODE_SOUND_ISA_NAMESPACE
+
+#include "dsp/kernel_spread.h"
+
+namespace ode::sound::ODE_SOUND_ISA_NAMESPACE {
 
 extern const Kernels kKernels;
 const Kernels kKernels = {ODE_SOUND_ISA_NAME,
@@ -390,9 +397,11 @@ const Kernels kKernels = {ODE_SOUND_ISA_NAME,
                           &high_pass,
                           &differences,
                           &ring,
+                          &ring_pushed,
                           &weigh,
                           {&splat<Facing::kAll>, &splat<Facing::kVisible>, &splat<Facing::kCosine>,
                            &splat<Facing::kLeaning>},
-                          &splat_run};
+                          &splat_run,
+                          &spread};
 
 } // namespace ode::sound::ODE_SOUND_ISA_NAMESPACE

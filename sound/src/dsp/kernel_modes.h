@@ -12,9 +12,10 @@ inline Floats load_floats(const float* p) { return *reinterpret_cast<const Loose
 inline void store_floats(float* p, const Floats& v) { *reinterpret_cast<LooseFloats*>(p) = v; }
 
 /// kGroups registers of oscillators at a time: each waits for itself, several fill the wait.
-template <int kGroups>
+/// @param first  column of the rows and pushes that q and v begin with.
+template <int kGroups, bool kPushed>
 inline void ring_groups(int columns, int samples, const float* step, int stride, float* q, float* v,
-                        float* q_rows, float* v_rows) {
+                        float* q_rows, float* v_rows, const RingPush* push, int pushes, int first) {
     Floats a[kGroups], b[kGroups], c[kGroups], d[kGroups], x[kGroups], y[kGroups];
     for (int g = 0; g < kGroups; ++g) {
         a[g] = load_floats(step + g * kFloats);
@@ -29,6 +30,16 @@ inline void ring_groups(int columns, int samples, const float* step, int stride,
             const Floats next = x[g] + (a[g] * x[g] + b[g] * y[g]);
             y[g] = y[g] + (c[g] * x[g] + d[g] * y[g]);
             x[g] = next;
+            if constexpr (kPushed)
+                for (int p = 0; p < pushes; ++p) {
+                    const int at = first + g * kFloats;
+                    const float share = push[p].series[s];
+                    if (share == 0.0f || at >= push[p].columns)
+                        continue;
+                    y[g] += share * load_floats(push[p].v + at);
+                    if (push[p].q)
+                        x[g] += share * load_floats(push[p].q + at);
+                }
             store_floats(q_rows + s * columns + g * kFloats, x[g]);
             store_floats(v_rows + s * columns + g * kFloats, y[g]);
         }
@@ -38,8 +49,9 @@ inline void ring_groups(int columns, int samples, const float* step, int stride,
     }
 }
 
-void ring(int columns, int samples, const float* step, int stride, float* q, float* v,
-          float* q_rows, float* v_rows) {
+template <bool kPushed>
+inline void ring_all(int columns, int samples, const float* step, int stride, float* q, float* v,
+                     float* q_rows, float* v_rows, const RingPush* push, int pushes) {
 #if defined(__AVX512F__)
     constexpr int kMost = 4; // 24 of 32 registers
 #else
@@ -47,10 +59,29 @@ void ring(int columns, int samples, const float* step, int stride, float* q, flo
 #endif
     int k = 0;
     for (; k + kMost * kFloats <= columns; k += kMost * kFloats)
-        ring_groups<kMost>(columns, samples, step + k, stride, q + k, v + k, q_rows + k,
-                           v_rows + k);
+        ring_groups<kMost, kPushed>(columns, samples, step + k, stride, q + k, v + k, q_rows + k,
+                                    v_rows + k, push, pushes, k);
+    if constexpr (kMost > 2) {
+        for (; k + 3 * kFloats <= columns; k += 3 * kFloats)
+            ring_groups<3, kPushed>(columns, samples, step + k, stride, q + k, v + k, q_rows + k,
+                                    v_rows + k, push, pushes, k);
+        for (; k + 2 * kFloats <= columns; k += 2 * kFloats)
+            ring_groups<2, kPushed>(columns, samples, step + k, stride, q + k, v + k, q_rows + k,
+                                    v_rows + k, push, pushes, k);
+    }
     for (; k < columns; k += kFloats)
-        ring_groups<1>(columns, samples, step + k, stride, q + k, v + k, q_rows + k, v_rows + k);
+        ring_groups<1, kPushed>(columns, samples, step + k, stride, q + k, v + k, q_rows + k,
+                                v_rows + k, push, pushes, k);
+}
+
+void ring(int columns, int samples, const float* step, int stride, float* q, float* v,
+          float* q_rows, float* v_rows) {
+    ring_all<false>(columns, samples, step, stride, q, v, q_rows, v_rows, nullptr, 0);
+}
+
+void ring_pushed(int columns, int samples, const float* step, int stride, float* q, float* v,
+                 float* q_rows, float* v_rows, const RingPush* push, int pushes) {
+    ring_all<true>(columns, samples, step, stride, q, v, q_rows, v_rows, push, pushes);
 }
 
 /// Sum of all lanes, by halves.

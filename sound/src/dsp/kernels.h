@@ -43,8 +43,26 @@ struct SplatSurface {
     const double* table;      ///< SplatTable::rows()
 };
 
+/// One point at successive samples, on its way to one ear.
+struct SpreadRun {
+    static constexpr int kMost = 32; ///< samples
+    int samples;
+    int every; ///< cells of the ring from one sample to the next
+    const float* value;
+    double delay, pace, bend; ///< of sample i: delay + i (pace + i bend) [cells]
+    const float* table;       ///< SplatTable::float_rows()
+};
+
 /// Oscillators are stored as rows of floats, in whole numbers of this many.
 constexpr int kModeLanes = 16;
+
+/// What pushes oscillators while they swing.
+struct RingPush {
+    const float* series; ///< share of it in each sample
+    const float* q;      ///< what all of it gives q; null: nothing
+    const float* v;      ///< and q'
+    int columns;         ///< those after are not pushed; whole numbers of kModeLanes
+};
 
 struct Kernels {
     const char* name;
@@ -87,6 +105,10 @@ struct Kernels {
     void (*ring)(int columns, int samples, const float* step, int stride, float* q, float* v,
                  float* q_rows, float* v_rows);
 
+    /// The same while they are pushed, after each sample's step.
+    void (*ring_pushed)(int columns, int samples, const float* step, int stride, float* q, float* v,
+                        float* q_rows, float* v_rows, const RingPush* push, int pushes);
+
     /// out[e][s] = sum over the columns of by[e][0] q_rows[s] + by[e][1] v_rows[s], for e below
     /// `ears`, which is 1 or 2.
     void (*weigh)(int columns, int samples, int ears, const float* const (*by)[2],
@@ -100,6 +122,10 @@ struct Kernels {
     /// places, sample by sample, all round alike. @return largest delay, counted from the first
     /// sample.
     double (*splat_run)(const SplatSurface& surface, const SplatEar& ear);
+
+    /// Adds every value to the ring of an ear after its delay; ear.gain, position and mach don't
+    /// count. Delays must not fall by as much as `every` from one sample to the next.
+    void (*spread)(const SpreadRun& run, const SplatEar& ear);
 };
 
 /// The widest set that this processor runs, or the one that the environment variable ODE_SOUND_ISA

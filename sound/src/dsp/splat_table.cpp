@@ -18,6 +18,7 @@ SplatTable::SplatTable() : row_(static_cast<std::size_t>(kPhases + 1) * kTaps) {
         for (int j = 0; j < kTaps; ++j)
             row[j] /= sum;
     }
+    float_row_.assign(row_.begin(), row_.end());
 }
 
 const SplatTable& splat_table() {

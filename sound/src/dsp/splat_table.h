@@ -24,8 +24,12 @@ public:
     /// Row 0; kPhases more behind it.
     const double* rows() const noexcept { return row_.data(); }
 
+    /// The same in floats.
+    const float* float_rows() const noexcept { return float_row_.data(); }
+
 private:
     AlignedVector row_;
+    AlignedFloats float_row_;
 };
 
 /// The one table, made at first use.

@@ -138,7 +138,8 @@ void Listener::send(const FlowBlock& block) noexcept {
         }
 }
 
-Listener::Voice& Listener::find_voice(const void* voice, const TransferTable& table) {
+Listener::Voice& Listener::find_voice(const void* voice, const TransferTable& table,
+                                      std::size_t lead) {
     // Voices come in the same order at every step: the next one is the likely one.
     for (std::size_t i = 0; i < voice_.size(); ++i) {
         const std::size_t at = (hint_ + i) % voice_.size();
@@ -148,7 +149,7 @@ Listener::Voice& Listener::find_voice(const void* voice, const TransferTable& ta
         }
     }
     hint_ = voice_.size();
-    return voice_.emplace_back(Voice{voice, {VoiceGains(table), VoiceGains(table)}});
+    return voice_.emplace_back(Voice{voice, {VoiceGains(table, lead), VoiceGains(table, lead)}});
 }
 
 void Listener::forget_voice(const void* voice) noexcept {

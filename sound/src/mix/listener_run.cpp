@@ -35,6 +35,10 @@ struct Points {
 void Listener::send(const ModalRun& run) {
     if (!ear_[0].path || !ear_[0].wave || (run.gain == 0.0 && run.gain_step == 0.0))
         return;
+    if (run.click) {
+        send_struck(run);
+        return;
+    }
     Voice& voice = find_voice(run.voice, *run.table);
     float heard[kEars][ModalRun::kMost];
     float* const out[kEars] = {heard[0], heard[1]};

@@ -102,7 +102,7 @@ void Scene::push(const void* body, std::span<const int> triangle, const SurfaceV
 StruckVoice& Scene::add_struck(const void* body, std::shared_ptr<const StruckVoiceModel> model) {
     const double loud = gain(body);
     bodies_.push_back({body, nullptr, nullptr,
-                       std::make_unique<StruckVoice>(std::move(model), settings_.send_rate()), loud,
+                       std::make_unique<StruckVoice>(std::move(model), settings_.rate), loud,
                        loud});
     return *bodies_.back().struck;
 }
@@ -220,7 +220,7 @@ void Scene::on_modes(const ModalBlock& block) noexcept {
 void Scene::on_modal_run(const ModalRun& run) noexcept {
     ModalRun own = run;
     const double before = sounding_->now;
-    const double after = next_gain(settings_.send_rate() / run.samples);
+    const double after = next_gain(settings_.send_rate() / (run.every * run.samples));
     own.gain_step = run.gain * (after - before) / run.samples;
     own.gain = run.gain * before + own.gain_step;
     for (const auto& listener : listeners_)

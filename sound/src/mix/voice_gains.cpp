@@ -5,16 +5,22 @@
 
 namespace ode::sound {
 
-VoiceGains::VoiceGains(const TransferTable& table)
-    : now_(table.mode.size()), next_(table.mode.size()), scratch_(table.scratch_size()) {
-    const std::size_t lanes = (now_.size() + kModeLanes - 1) / kModeLanes * kModeLanes;
+VoiceGains::VoiceGains(const TransferTable& table, std::size_t lead)
+    : now_(table.mode.size()), next_(table.mode.size()), lead_(lead),
+      scratch_(table.scratch_size()) {
+    const std::size_t lanes = (lead + now_.size() + kModeLanes - 1) / kModeLanes * kModeLanes;
     for (AlignedFloats* row : {&velocity_, &acceleration_, &velocity_step_, &acceleration_step_})
         row->assign(lanes, 0.0f);
+    if (lead > 0)
+        for (AlignedFloats* row :
+             {&run_velocity_, &run_acceleration_, &run_velocity_step_, &run_acceleration_step_})
+            row->assign(lanes, 0.0f);
 }
 
 bool VoiceGains::look(std::int64_t sample, const TransferTable& table, const Vec3& place) noexcept {
     const bool anew = !known_ || sample - looked_ > 64 * kInterval;
     looked_ = sample;
+    anew_ = true;
     // The finest pattern has scratch_.size() lobes on the sphere: none has moved by a twentieth.
     constexpr double kSame = 0.05;
     const double lobe = place.norm() / std::sqrt(static_cast<double>(scratch_.size()));
@@ -23,8 +29,8 @@ bool VoiceGains::look(std::int64_t sample, const TransferTable& table, const Vec
         std::fill(velocity_step_.begin(), velocity_step_.end(), 0.0f);
         std::fill(acceleration_step_.begin(), acceleration_step_.end(), 0.0f);
         for (std::size_t k = 0; k < next_.size(); ++k) {
-            velocity_[k] = next_[k].velocity;
-            acceleration_[k] = next_[k].acceleration;
+            velocity_[lead_ + k] = next_[k].velocity;
+            acceleration_[lead_ + k] = next_[k].acceleration;
         }
         return false;
     }
@@ -36,10 +42,10 @@ bool VoiceGains::look(std::int64_t sample, const TransferTable& table, const Vec
     turns_ = !anew;
     place_ = place;
     for (std::size_t k = 0; k < now_.size(); ++k) {
-        velocity_[k] = now_[k].velocity;
-        acceleration_[k] = now_[k].acceleration;
-        velocity_step_[k] = next_[k].velocity - now_[k].velocity;
-        acceleration_step_[k] = next_[k].acceleration - now_[k].acceleration;
+        velocity_[lead_ + k] = now_[k].velocity;
+        acceleration_[lead_ + k] = now_[k].acceleration;
+        velocity_step_[lead_ + k] = next_[k].velocity - now_[k].velocity;
+        acceleration_step_[lead_ + k] = next_[k].acceleration - now_[k].acceleration;
     }
     return true;
 }
@@ -70,6 +76,18 @@ double VoiceGains::flow(const ModalBlock& block, const Vec3& ear) noexcept {
     return (all + std::min(1.0, share) * slope) * (ear - centre).norm();
 }
 
+void VoiceGains::look_again(const ModalRun& run, const Vec3& ear, double allowance) noexcept {
+    const auto cost = static_cast<double>(run.table->coefficient.size());
+    credit_ = std::min(credit_ + allowance * run.samples * run.every, 2.0 * cost);
+    const std::int64_t since = run.sample - looked_;
+    const bool asks = since >= kInterval && credit_ >= cost;
+    if (known_ && !asks && since >= 0)
+        return;
+    ramp_ = std::clamp<std::int64_t>(since, kInterval, 32 * kInterval);
+    if (look(run.sample, *run.table, run.rotation.transpose() * (ear - run.center)))
+        credit_ -= cost;
+}
+
 void VoiceGains::flow(const ModalRun& run, std::span<VoiceGains* const> gains,
                       std::span<const Vec3> ear, double allowance, float* const* out) noexcept {
     const float *by[2][2] = {}, *step[2][2] = {};
@@ -78,15 +96,7 @@ void VoiceGains::flow(const ModalRun& run, std::span<VoiceGains* const> gains,
     bool turns = false;
     for (std::size_t e = 0; e < gains.size(); ++e) {
         VoiceGains& own = *gains[e];
-        const auto cost = static_cast<double>(run.table->coefficient.size());
-        own.credit_ = std::min(own.credit_ + allowance * run.samples, 2.0 * cost);
-        const std::int64_t since = run.sample - own.looked_;
-        const bool asks = since >= kInterval && own.credit_ >= cost;
-        if (!own.known_ || asks || since < 0) {
-            own.ramp_ = std::clamp<std::int64_t>(since, kInterval, 32 * kInterval);
-            if (own.look(run.sample, *run.table, run.rotation.transpose() * (ear[e] - run.center)))
-                own.credit_ -= cost;
-        }
+        own.look_again(run, ear[e], allowance);
         by[e][0] = own.velocity_.data(), by[e][1] = own.acceleration_.data();
         step[e][0] = own.velocity_step_.data(), step[e][1] = own.acceleration_step_.data();
         turns = turns || own.turns_;
@@ -102,6 +112,78 @@ void VoiceGains::flow(const ModalRun& run, std::span<VoiceGains* const> gains,
                                  static_cast<double>(gains[e]->ramp_);
             out[e][s] += static_cast<float>(std::min(1.0, share)) * slope[e][s];
         }
+}
+
+void VoiceGains::pressure_flow(const ModalRun& run, std::span<VoiceGains* const> gains,
+                               std::span<const Vec3> ear, double allowance,
+                               float* const* out) noexcept {
+    const float *by[2][2] = {}, *step[2][2] = {};
+    float slope[2][ModalRun::kMost];
+    float* const slopes[2] = {slope[0], slope[1]};
+    const ClickColumns& click = *run.click;
+    const int length = run.samples * run.every;
+    bool turns = false;
+    for (std::size_t e = 0; e < gains.size(); ++e) {
+        VoiceGains& own = *gains[e];
+        own.look_again(run, ear[e], allowance);
+        const auto share_at = [&](std::int64_t sample) {
+            const double since = static_cast<double>(sample - own.looked_);
+            return std::min(1.0, since / static_cast<double>(own.ramp_));
+        };
+        const auto share = static_cast<float>(own.turns_ ? share_at(run.sample) : 0.0);
+        const auto more =
+            static_cast<float>(own.turns_ ? share_at(run.sample + length) : 0.0) - share;
+        if (own.turns_ || own.anew_) {
+            for (std::size_t k = 0; k < own.velocity_.size(); ++k) {
+                own.run_velocity_[k] = own.velocity_[k] + share * own.velocity_step_[k];
+                own.run_acceleration_[k] = own.acceleration_[k] + share * own.acceleration_step_[k];
+            }
+            for (std::size_t k = 0; k < own.velocity_.size(); ++k) {
+                own.run_velocity_step_[k] = more * own.velocity_step_[k];
+                own.run_acceleration_step_[k] = more * own.acceleration_step_[k];
+            }
+            own.anew_ = false;
+        }
+        // p = d/dt [r . D V / r^2 + r . D V' / (r c)], V = share U + W.
+        const double least = run.table->near_limit();
+        const auto ahead = [&](int samples, double& far) -> Vec3 {
+            const Vec3 way = ear[e] - run.center - samples * run.pace;
+            far = std::max(way.norm(), least);
+            return run.rotation.transpose() * way.stableNormalized() / far;
+        };
+        double far = 0.0, far_then = 0.0;
+        const Vec3 now = ahead(0, far), then = ahead(run.samples, far_then);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto at = static_cast<int>(i);
+            const auto of = [&](const Vec3& way, double r, std::size_t which) {
+                return which == 0 ? way[at] / r
+                       : which == 1
+                           ? way[at] / click.speed
+                           : click.share * way[at] * (1.0 / r - click.forget / click.speed);
+            };
+            own.run_velocity_[i] = static_cast<float>(of(now, far, 0));
+            own.run_acceleration_[i] = static_cast<float>(of(now, far, 1));
+            own.run_velocity_[3 + i] = static_cast<float>(of(now, far, 2));
+            own.run_velocity_step_[i] = static_cast<float>(of(then, far_then, 0) - of(now, far, 0));
+            own.run_acceleration_step_[i] =
+                static_cast<float>(of(then, far_then, 1) - of(now, far, 1));
+            own.run_velocity_step_[3 + i] =
+                static_cast<float>(of(then, far_then, 2) - of(now, far, 2));
+        }
+        by[e][0] = own.run_velocity_.data(), by[e][1] = own.run_acceleration_.data();
+        step[e][0] = own.run_velocity_step_.data(), step[e][1] = own.run_acceleration_step_.data();
+        constexpr double kTurned = 1e-4; // of the direction: 80 dB down
+        turns = turns || own.turns_ || (now - then).norm() > kTurned * now.norm();
+    }
+    const auto ears = static_cast<int>(gains.size());
+    kernels().weigh(run.columns, run.samples, ears, by, run.amplitude, run.rate, out);
+    if (!turns)
+        return;
+    kernels().weigh(run.columns, run.samples, ears, step, run.amplitude, run.rate, slopes);
+    const float per_sample = 1.0f / static_cast<float>(run.samples);
+    for (std::size_t e = 0; e < gains.size(); ++e)
+        for (int s = 0; s < run.samples; ++s)
+            out[e][s] += static_cast<float>(s) * per_sample * slope[e][s];
 }
 
 } // namespace ode::sound

@@ -18,7 +18,8 @@ public:
     /// a second turns five degrees. One that stands still before an ear costs no look.
     static constexpr int kInterval = 128; ///< [grid samples]
 
-    explicit VoiceGains(const TransferTable& table);
+    /// @param lead  columns before the modes.
+    explicit VoiceGains(const TransferTable& table, std::size_t lead = 0);
 
     /// @param ear  world [m].
     /// @return sum over the modes of what differentiates to p R [Pa s m]: with g_v, g_a of the
@@ -26,20 +27,31 @@ public:
     double flow(const ModalBlock& block, const Vec3& ear) noexcept;
 
     /// What looks may cost a listener, shared by its voices: numbers of the table a sample. Some
-    /// tenth of a core; who is short of it looks more rarely.
-    static constexpr double kAllowance = 1000.0;
+    /// thirtieth of a core; who is short of it looks more rarely.
+    static constexpr double kAllowance = 300.0;
 
     /// The same for a run, of several ears at once. @param out  of each ear and sample, without R.
     /// @param allowance  for one ear, a sample.
     static void flow(const ModalRun& run, std::span<VoiceGains* const> gains,
                      std::span<const Vec3> ear, double allowance, float* const* out) noexcept;
 
+    /// The same of a run whose leading columns are the click's, over the distance already: what
+    /// differentiates to the pressure.
+    static void pressure_flow(const ModalRun& run, std::span<VoiceGains* const> gains,
+                              std::span<const Vec3> ear, double allowance,
+                              float* const* out) noexcept;
+
 private:
+    /// Looks at the table when it is time to, and while there is an allowance for it.
+    void look_again(const ModalRun& run, const Vec3& ear, double allowance) noexcept;
     /// @return whether the table was asked.
     bool look(std::int64_t sample, const TransferTable& table, const Vec3& place) noexcept;
 
     std::vector<ModeGain> now_, next_;
+    std::size_t lead_;
     AlignedFloats velocity_, acceleration_, velocity_step_, acceleration_step_; ///< kModeLanes
+    /// Of a run: at its begin, and the change to its end.
+    AlignedFloats run_velocity_, run_acceleration_, run_velocity_step_, run_acceleration_step_;
     std::vector<double> scratch_;
     std::int64_t looked_ = 0;
     Vec3 place_ = Vec3::Zero(); ///< of the ear in the frame, at the last real look [m]
@@ -47,6 +59,7 @@ private:
     double credit_ = 0.0;
     std::int64_t ramp_ = kInterval; ///< to the gains of the last look [grid samples]
     bool turns_ = false;            ///< the steps aren't zero
+    bool anew_ = true;              ///< looked since the gains of a run were worked out
 };
 
 } // namespace ode::sound

@@ -89,7 +89,7 @@ make_voice_model(std::span<const double> omega, std::span<const double> decay,
     }
     model->rigid = rigid_sound(mesh, Vec3::Zero(), air);
     find_levels(*model);
-    find_steps(*model, settings.send_rate());
+    find_steps(*model, settings.rate);
     return model;
 }
 

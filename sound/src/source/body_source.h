@@ -56,11 +56,22 @@ struct ModalBlock {
     RigidSound::Six slope = RigidSound::Six::Zero();    ///< its derivative
 };
 
+/// How a body moves as a whole, told as columns of its own before those of the modes: RigidSound's
+/// D V is `share` U + W, U what blows have given, forgotten at the rate `forget`, W what the air
+/// round the body makes of it.
+struct ClickColumns {
+    static constexpr int kCount = 6; ///< W along x y z, then U
+    double share = 0.0;              ///< [-]
+    double forget = 0.0;             ///< [1/s]
+    double radius = 0.0;             ///< of the sphere that the body is likened to [m]
+    double speed = 343.0;            ///< of sound [m/s]
+};
+
 /// Modes of a body at successive samples of the grid. Borrowed. A body that rings freely is told in
 /// runs: what is the same for all their samples is worked out once.
 struct ModalRun {
     static constexpr int kMost = 32; ///< samples
-    std::int64_t sample;             ///< the first
+    std::int64_t sample;             ///< the first, on the grid
     int samples;
     int columns;                   ///< of the rows: modes, and silent ones up to kModeLanes
     const float *amplitude, *rate; ///< rows, one a sample
@@ -72,6 +83,8 @@ struct ModalRun {
     const RigidSound* rigid;         ///< null: the body as a whole is silent
     const RigidSound::Six* velocity; ///< of the body in its frame, one a sample
     const RigidSound::Six* slope;
+    int every = 1;                       ///< samples of the grid from one to the next
+    const ClickColumns* click = nullptr; ///< the leading columns; null: all are modes
 };
 
 /// Takes what sources give off, in order of time for each source.

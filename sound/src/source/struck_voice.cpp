@@ -14,14 +14,20 @@ namespace {
 // frequencies of some ten hertz that this makes are not heard.
 constexpr double kMemory = 5e-3; // [s]
 
+constexpr std::size_t kClick = ClickColumns::kCount;
+
+std::size_t padded(std::size_t columns) {
+    return (columns + kModeLanes - 1) / kModeLanes * kModeLanes;
+}
+
 } // namespace
 
 void find_steps(StruckVoiceModel& model, double rate) {
     const std::size_t n = model.omega.size();
-    const std::size_t all = model.columns = (n + kModeLanes - 1) / kModeLanes * kModeLanes;
+    const std::size_t all = model.columns = padded(kClick + n);
+    const double t = 1.0 / rate;
     model.step.assign(4 * all, 0.0f);
-    for (std::size_t k = 0; k < n; ++k) {
-        const double w = model.omega[k], d = model.decay[k], t = 1.0 / rate;
+    const auto column = [&](std::size_t k, double w, double d) {
         const double damped =
             std::sqrt(std::max(0.0, (w - d) * (w + d))); // what creeps is no sound
         const double fade = std::exp(-d * t), s = damped > 0.0 ? std::sin(damped * t) / damped : t;
@@ -32,67 +38,117 @@ void find_steps(StruckVoiceModel& model, double rate) {
         model.step[all + k] = static_cast<float>(fade * s);
         model.step[2 * all + k] = static_cast<float>(-fade * w * w * s);
         model.step[3 * all + k] = static_cast<float>(less - fade * d * s);
+    };
+    // T^2 V''/2 + T V' + V = U, and U' = -U / kMemory between blows: V = share U + W, where W
+    // swings by itself. What is faster than half a sample is taken to be as fast.
+    const double T = std::max(model.rigid.radius / model.rigid.speed, 0.5 * t);
+    const double forget = 1.0 / kMemory;
+    model.click = {1.0 / (1.0 - T * forget * (1.0 - 0.5 * T * forget)), forget, model.rigid.radius,
+                   model.rigid.speed};
+    for (std::size_t i = 0; i < 3; ++i) {
+        column(i, std::numbers::sqrt2 / T, 1.0 / T);
+        model.step[3 + i] = static_cast<float>(std::expm1(-forget * t));
     }
+    for (std::size_t k = 0; k < n; ++k)
+        column(kClick + k, model.omega[k], model.decay[k]);
+    model.amplitude_rows.assign(ModalRun::kMost * all, 0.0f);
+    model.rate_rows.assign(ModalRun::kMost * all, 0.0f);
 }
 
 StruckVoice::StruckVoice(std::shared_ptr<const StruckVoiceModel> model, double rate)
-    : model_(std::move(model)), rate_(rate),
-      way_(model_->rigid.radius / model_->rigid.speed, rate) {
+    : model_(std::move(model)), rate_(rate), lead_(model_->rigid.radius / model_->rigid.speed) {
     amplitude_.assign(model_->columns, 0.0f);
     rate_of_.assign(model_->columns, 0.0f);
-    amplitude_rows_.assign(ModalRun::kMost * model_->columns, 0.0f);
-    rate_rows_.assign(ModalRun::kMost * model_->columns, 0.0f);
     for (Pulse& pulse : pulse_)
-        pulse.push.assign(model_->omega.size(), 0.0f);
+        pulse.push.assign(model_->columns, 0.0f);
+}
+
+void StruckVoice::give_rest(const Pulse& pulse) noexcept {
+    const auto rest = static_cast<float>(1.0 - pulse.given);
+    const auto click_rest = static_cast<float>(1.0 - pulse.click_given);
+    for (std::size_t k = 0; k < pulse.push.size(); ++k)
+        rate_of_[k] += rest * pulse.push[k];
+    for (std::size_t k = 0; k < kClick; ++k) {
+        amplitude_[k] += click_rest * pulse.click[k];
+        rate_of_[k] += click_rest * pulse.click_rate[k];
+    }
 }
 
 void StruckVoice::strike(double time, double duration, std::span<const float> push,
                          const RigidSound::Six& jerk) noexcept {
     if (pulses_ == kMostPulses) {
         // All that is left of the oldest at once.
-        const Pulse& oldest = pulse_.front();
-        for (std::size_t k = 0; k < oldest.push.size(); ++k)
-            rate_of_[k] += static_cast<float>(1.0 - oldest.given) * oldest.push[k];
-        velocity_ += (1.0 - oldest.given) * oldest.jerk;
+        give_rest(pulse_.front());
         std::rotate(pulse_.begin(), pulse_.begin() + 1, pulse_.end());
         --pulses_;
     }
     Pulse& made = pulse_[pulses_++];
     made.begin = time;
     made.duration = duration;
-    made.given = 0.0;
-    made.jerk = jerk;
-    for (std::size_t k = 0; k < made.push.size(); ++k) {
+    made.given = made.click_given = 0.0;
+    // U jumps, V and V' don't.
+    const Vec3 click = model_->rigid.dipole * jerk;
+    const double part = model_->click.share, forget = model_->click.forget;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double own = click[static_cast<int>(i)];
+        made.click[i] = static_cast<float>(-part * own);
+        made.click_rate[i] = static_cast<float>(part * forget * own);
+        made.click[3 + i] = static_cast<float>(own);
+    }
+    for (std::size_t k = 0; k < model_->omega.size(); ++k) {
         const double half = 0.5 * model_->omega[k] / rate_;
-        made.push[k] = static_cast<float>(static_cast<double>(push[k]) * half / std::sin(half));
+        // What the rate can't carry is left out.
+        made.push[kClick + k] =
+            half < 0.49 * std::numbers::pi
+                ? static_cast<float>(static_cast<double>(push[k]) * half / std::sin(half))
+                : 0.0f;
     }
     active_ = model_->columns;
-    if (!jerked_) {
-        jerked_ = true;
-        velocity_.setZero();
-        way_ = RigidWay(model_->rigid.radius / model_->rigid.speed, rate_);
-        way_.start(static_cast<double>(done_) / rate_, velocity_);
-    }
 }
 
-void StruckVoice::press(std::int64_t sample, float* row) noexcept {
-    const double end = (static_cast<double>(sample) + 0.5) / rate_;
-    std::size_t kept = 0;
+void StruckVoice::ring(std::int64_t first, int samples) noexcept {
+    float* const q_rows = model_->amplitude_rows.data();
+    float* const v_rows = model_->rate_rows.data();
+    const auto columns = static_cast<int>(active_), stride = static_cast<int>(model_->columns);
+    float series[2 * kMostPulses][ModalRun::kMost];
+    RingPush push[2 * kMostPulses];
+    int pushes = 0;
     for (std::size_t p = 0; p < pulses_; ++p) {
         Pulse& pulse = pulse_[p];
-        const double given = pulse_share((end - pulse.begin) / pulse.duration);
-        const double now = given - pulse.given;
-        pulse.given = given;
-        if (now > 0.0) {
-            for (std::size_t k = 0; k < pulse.push.size(); ++k)
-                rate_of_[k] += static_cast<float>(now) * pulse.push[k];
-            velocity_ += now * pulse.jerk;
-        }
-        if (given < 1.0)
-            std::swap(pulse_[kept++], pulse);
+        const double per_duration = 1.0 / pulse.duration;
+        const auto follow = [&](double late, double& given, const float* q, const float* v,
+                                int pushed) {
+            const double u =
+                ((static_cast<double>(first) + 0.5) / rate_ - late - pulse.begin) * per_duration;
+            const double step = per_duration / rate_;
+            if (given == 1.0 || u + samples * step <= 0.0)
+                return;
+            double share[ModalRun::kMost];
+            pulse_shares(u, step, samples, share);
+            for (int i = 0; i < samples; ++i) {
+                series[pushes][i] = static_cast<float>(share[i] - given);
+                given = share[i];
+            }
+            push[pushes] = {series[pushes], q, v, pushed};
+            ++pushes;
+        };
+        follow(lead_, pulse.given, nullptr, pulse.push.data(), columns);
+        follow(0.0, pulse.click_given, pulse.click.data(), pulse.click_rate.data(), kModeLanes);
     }
+    if (pushes > 0)
+        kernels().ring_pushed(columns, samples, model_->step.data(), stride, amplitude_.data(),
+                              rate_of_.data(), q_rows, v_rows, push, pushes);
+    else
+        kernels().ring(columns, samples, model_->step.data(), stride, amplitude_.data(),
+                       rate_of_.data(), q_rows, v_rows);
+    std::size_t kept = 0;
+    for (std::size_t p = 0; p < pulses_; ++p)
+        if (pulse_[p].given < 1.0) {
+            if (kept != p)
+                std::swap(pulse_[kept], pulse_[p]);
+            ++kept;
+        }
     pulses_ = kept;
-    std::copy(rate_of_.begin(), rate_of_.end(), row);
 }
 
 void StruckVoice::run(std::int64_t last, const FramePose& to, bool fading, BlockSink& out) {
@@ -110,75 +166,68 @@ void StruckVoice::send(std::int64_t first, int samples, const FramePose& to, boo
         const double time = static_cast<double>(first + i) / rate_;
         return span > 0.0 ? std::clamp((time - begin) / span, 0.0, 1.0) : 1.0;
     };
-    const double forget = std::exp(-1.0 / (kMemory * rate_));
-    for (int i = 0; i < samples;) {
-        // Free as far as nothing presses.
-        const int free = pulses_ > 0 ? 1 : samples - i;
-        const std::size_t at = static_cast<std::size_t>(i) * active_;
-        kernels().ring(static_cast<int>(active_), free, model_->step.data(),
-                       static_cast<int>(model_->columns), amplitude_.data(), rate_of_.data(),
-                       amplitude_rows_.data() + at, rate_rows_.data() + at);
-        if (pulses_ > 0)
-            press(first + i, rate_rows_.data() + at);
-        for (const int end = i + free; i < end; ++i) {
-            double fade = 1.0;
-            if (fading) {
-                fade = 0.5 + 0.5 * std::cos(std::numbers::pi * share_at(i));
-                const std::size_t row = static_cast<std::size_t>(i) * active_;
-                for (std::size_t k = row; k < row + active_; ++k) {
-                    amplitude_rows_[k] *= static_cast<float>(fade);
-                    rate_rows_[k] *= static_cast<float>(fade);
-                }
-            }
-            if (!jerked_)
-                continue;
-            const double time = static_cast<double>(first + i) / rate_;
-            velocity_ *= forget;
-            way_.go_on(time, velocity_);
-            way_.step_to(time);
-            way_.listen(fade);
-            velocities_[static_cast<std::size_t>(i)] = way_.velocity();
-            slopes_[static_cast<std::size_t>(i)] = way_.slope();
+    ring(first, samples);
+    AlignedFloats &amplitude_rows = model_->amplitude_rows, &rate_rows = model_->rate_rows;
+    for (int i = 0; fading && i < samples; ++i) {
+        const double fade = 0.5 + 0.5 * std::cos(std::numbers::pi * share_at(i));
+        const std::size_t row = static_cast<std::size_t>(i) * active_;
+        for (std::size_t k = row; k < row + active_; ++k) {
+            amplitude_rows[k] *= static_cast<float>(fade);
+            rate_rows[k] *= static_cast<float>(fade);
         }
     }
     const double share = share_at(0), ahead = span > 0.0 ? 1.0 / (rate_ * span) : 0.0;
     const Vec3 way = to.center - pose_.center;
     ModalRun run{};
-    run.sample = first;
+    run.sample = first * kEvery;
+    run.every = kEvery;
     run.samples = samples;
     run.columns = static_cast<int>(active_);
-    run.amplitude = amplitude_rows_.data();
-    run.rate = rate_rows_.data();
+    run.amplitude = amplitude_rows.data();
+    run.rate = rate_rows.data();
     run.center = pose_.center + share * way;
     run.pace = ahead * way;
     run.rotation = pose_.turn.slerp(share, to.turn).toRotationMatrix();
     run.table = &model_->table;
     run.voice = this;
     run.gain = 1.0;
-    run.rigid = jerked_ ? &model_->rigid : nullptr;
-    run.velocity = velocities_.data();
-    run.slope = slopes_.data();
+    run.click = &model_->click;
     out.on_modal_run(run);
+}
+
+bool StruckVoice::clicks() const noexcept {
+    // d/dt (D V) at 1 m, and its derivative over the speed of sound, from U and W.
+    double sum = 0.0;
+    const double quick = model_->click.speed / std::max(model_->click.radius, 1e-3);
+    for (std::size_t i = 0; i < 3; ++i)
+        sum += model_->click.forget * std::fabs(static_cast<double>(amplitude_[3 + i])) +
+               (1.0 + quick / model_->click.speed) *
+                   (std::fabs(static_cast<double>(rate_of_[i])) +
+                    quick * std::fabs(static_cast<double>(amplitude_[i])));
+    return sum > kInaudible;
 }
 
 void StruckVoice::settle() noexcept {
     if (pulses_ > 0)
         return;
-    // A body that moves steadily makes no sound; this is what is left of having forgotten a blow.
-    constexpr double kStill = 1e-5; // of 1 m/s, and of its radius times 1 /s
-    if (velocity_.head<3>().norm() + model_->rigid.radius * velocity_.tail<3>().norm() < kStill)
-        jerked_ = false;
-    std::size_t heard = std::min(active_, model_->omega.size());
+    std::size_t heard =
+        std::min(active_, kClick + model_->omega.size()) - std::min(active_, kClick);
     while (heard > 0) {
-        const std::size_t k = heard - 1;
-        const double w = model_->omega[k], v = static_cast<double>(rate_of_[k]);
-        if (model_->level[k] * std::hypot(w * static_cast<double>(amplitude_[k]), v) * w >
+        const std::size_t k = heard - 1, at = kClick + k;
+        const double w = model_->omega[k], v = static_cast<double>(rate_of_[at]);
+        if (model_->level[k] * std::hypot(w * static_cast<double>(amplitude_[at]), v) * w >
             kInaudible)
             break;
-        amplitude_[k] = rate_of_[k] = 0.0f;
+        amplitude_[at] = rate_of_[at] = 0.0f;
         --heard;
     }
-    active_ = (heard + kModeLanes - 1) / kModeLanes * kModeLanes;
+    if (heard == 0 && !clicks()) {
+        std::fill_n(amplitude_.begin(), kClick, 0.0f);
+        std::fill_n(rate_of_.begin(), kClick, 0.0f);
+        active_ = 0;
+    } else {
+        active_ = padded(kClick + heard);
+    }
 }
 
 void StruckVoice::advance(const FramePose& pose, BlockSink& out) {
@@ -206,15 +255,14 @@ void StruckVoice::finish(BlockSink& out) {
     std::fill(amplitude_.begin(), amplitude_.end(), 0.0f);
     std::fill(rate_of_.begin(), rate_of_.end(), 0.0f);
     active_ = pulses_ = 0;
-    jerked_ = false;
     pose_ = end;
 }
 
 double StruckVoice::energy() const noexcept {
     double sum = 0.0;
     for (std::size_t k = 0; k < model_->omega.size(); ++k)
-        sum += 0.5 * (std::pow(static_cast<double>(rate_of_[k]), 2) +
-                      std::pow(model_->omega[k] * static_cast<double>(amplitude_[k]), 2));
+        sum += 0.5 * (std::pow(static_cast<double>(rate_of_[kClick + k]), 2) +
+                      std::pow(model_->omega[k] * static_cast<double>(amplitude_[kClick + k]), 2));
     return sum;
 }
 

@@ -3,7 +3,6 @@
 #include "dsp/kernels.h"
 #include "dsp/storage.h"
 #include "source/modal_voice.h"
-#include "source/rigid_way.h"
 
 #include <Eigen/Geometry>
 
@@ -23,29 +22,35 @@ struct StruckVoiceModel : ModalVoiceModel {
     /// Of each mode: pressure at 1 m per unit of its acceleration, mean square of six directions
     /// [Pa s^2 / (kg^1/2 m)].
     std::vector<double> level;
-    /// What the recurrence adds to q and q' a sample of the grid, four rows of `columns` (see
-    /// Kernels::ring), modes filled up to kModeLanes.
+    /// What the recurrence adds to q and q' a sample, four rows of `columns` (see Kernels::ring):
+    /// the click's columns, the modes', and silent ones up to kModeLanes.
     AlignedFloats step;
     std::size_t columns = 0;
+    ClickColumns click;
+    /// Scratch of a run, for one voice at a time: all fit the cache.
+    mutable AlignedFloats amplitude_rows, rate_rows;
 };
 
-/// The recurrence's rows for modes at a rate [Hz].
+/// The recurrence's rows at a rate [Hz].
 void find_steps(StruckVoiceModel& model, double rate);
 
 /// The sound of a rigid body that blows set ringing: its modes by exact recurrence, driven by
 /// impulses spread over contact times; and by how these jerk the body as a whole (RigidSound),
 /// which is all that is heard of one too small or too stiff to ring.
 ///
-/// A force is told to the recurrence by what it gives within half a sample of each sample, so that
-/// its impulse is exact; that this smooths its spectrum by sinc(w dt / 2) is made good at each
-/// mode's own frequency. Modes that nobody could hear any more stand still. A step allocates
-/// nothing.
+/// Works at the audio rate, half the grid's: modes end at 22 kHz, and images beyond 24 kHz are the
+/// decimator's. A force is told to the recurrence by what it gives within half a sample of each
+/// sample, so that its impulse is exact; that this smooths its spectrum by sinc(w dt / 2) is made
+/// good at each mode's own frequency. Modes come later by the way from the body's middle to its
+/// near side, so that they and the click leave from there together. Modes that nobody could hear
+/// any more stand still. A step allocates nothing.
 class StruckVoice {
 public:
     static constexpr std::size_t kMostPulses = 24; ///< at a time; a further one cuts the oldest off
     static constexpr double kInaudible = 2e-6;     ///< [Pa] at 1 m: 20 dB below hearing
+    static constexpr int kEvery = 2;               ///< samples of the grid for one of these
 
-    /// @param rate  of the grid [Hz].
+    /// @param rate  of audio [Hz].
     StruckVoice(std::shared_ptr<const StruckVoiceModel> model, double rate);
 
     /// A blow that begins at `time` [s] and lasts `duration` [s]. What lies before the samples
@@ -60,37 +65,35 @@ public:
     /// Falls silent within ModalVoice::kFadeTime.
     void finish(BlockSink& out);
 
-    bool is_silent() const noexcept { return active_ == 0 && pulses_ == 0 && !jerked_; }
+    bool is_silent() const noexcept { return active_ == 0 && pulses_ == 0; }
     const StruckVoiceModel& model() const noexcept { return *model_; }
     double energy() const noexcept; ///< of all modes [J]
     std::span<const float> rates() const noexcept {
-        return rate_of_;
+        return std::span(rate_of_).subspan(ClickColumns::kCount);
     } ///< of all modes, and padding
 
 private:
     struct Pulse {
-        double begin = 0.0, duration = 0.0; ///< [s]
-        double given = 0.0;                 ///< share of the impulse
-        std::vector<float> push;
-        RigidSound::Six jerk;
+        double begin = 0.0, duration = 0.0;                              ///< [s]
+        double given = 0.0, click_given = 0.0;                           ///< shares of the impulse
+        AlignedFloats push;                                              ///< columns
+        alignas(64) std::array<float, kModeLanes> click{}, click_rate{}; ///< of the first columns
     };
 
     void run(std::int64_t last, const FramePose& to, bool fading, BlockSink& out);
     void send(std::int64_t first, int samples, const FramePose& to, bool fading, BlockSink& out);
-    void press(std::int64_t sample, float* row) noexcept;
+    void give_rest(const Pulse& pulse) noexcept;
+    void ring(std::int64_t first, int samples) noexcept;
     void settle() noexcept;
+    bool clicks() const noexcept; ///< the body as a whole is heard
 
     std::shared_ptr<const StruckVoiceModel> model_;
     double rate_;
-    AlignedFloats amplitude_, rate_of_;        ///< columns
-    AlignedFloats amplitude_rows_, rate_rows_; ///< of a run
-    std::array<RigidSound::Six, ModalRun::kMost> velocities_, slopes_;
+    double lead_;                          ///< of the click before the modes [s]
+    AlignedFloats amplitude_, rate_of_;    ///< columns
     std::array<Pulse, kMostPulses> pulse_; ///< pulses_ of them, the oldest first
     std::size_t pulses_ = 0;
-    std::size_t active_ = 0; ///< columns from the lowest mode on that may be heard
-    bool jerked_ = false;    ///< the body as a whole is heard
-    RigidWay way_;
-    RigidSound::Six velocity_ = RigidSound::Six::Zero(); ///< that blows gave the body lately
+    std::size_t active_ = 0; ///< columns from the first on that may be heard
     bool begun_ = false;
     FramePose pose_;        ///< at the last call
     std::int64_t done_ = 0; ///< last sample given off

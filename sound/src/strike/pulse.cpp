@@ -32,10 +32,12 @@ struct Table {
     }
 };
 
-} // namespace
+const Table& table() {
+    static const Table made;
+    return made;
+}
 
-double pulse_share(double u) noexcept {
-    static const Table table;
+double share_of(const Table& table, double u) noexcept {
     if (!(u > 0.0))
         return 0.0;
     if (u >= 1.0)
@@ -46,6 +48,16 @@ double pulse_share(double u) noexcept {
     const double a = table.share[c], b = table.share[c + 1];
     const double da = h * table.force[c], db = h * table.force[c + 1];
     return a + t * (da + t * (3.0 * (b - a) - 2.0 * da - db + t * (2.0 * (a - b) + da + db)));
+}
+
+} // namespace
+
+double pulse_share(double u) noexcept { return share_of(table(), u); }
+
+void pulse_shares(double u, double step, int count, double* out) noexcept {
+    const Table& course = table();
+    for (int i = 0; i < count; ++i)
+        out[i] = share_of(course, u + i * step);
 }
 
 double pulse_spectrum(double x) noexcept {

@@ -65,6 +65,10 @@ StruckSurface::StruckSurface(std::vector<Vec3> node, std::vector<std::array<int,
             normal_[static_cast<std::size_t>(t[i])] += angle * unit;
         }
         reach_.push_back(reach);
+        longest_ = std::max(longest_, reach);
+        for (int k = 0; k < 3; ++k)
+            middle_of_[static_cast<std::size_t>(k)].push_back(
+                static_cast<float>(middle_.back()[k]));
     }
     for (Vec3& n : normal_)
         if (const double length = n.norm(); length > 0.0)
@@ -106,14 +110,17 @@ void StruckSurface::find_curvature() {
     }
 }
 
-StruckSurface::Place StruckSurface::nearest(const Vec3& point, const Vec3& outward) const noexcept {
+StruckSurface::Place StruckSurface::nearest(const Vec3& point, const Vec3& outward,
+                                            int likely) const noexcept {
     Place best[2]; // turned away, turned to the contact
     double least[2] = {HUGE_VAL, HUGE_VAL};
-    for (std::size_t t = 0; t < triangle_.size(); ++t) {
+    const auto look = [&](std::size_t t) {
         const bool looks = facing_[t].dot(outward) > 0.0;
-        const double beyond = (point - middle_[t]).norm() - reach_[t];
-        if (beyond > least[looks])
-            continue;
+        if (!looks && least[1] < HUGE_VAL)
+            return;
+        const double within = least[looks] + reach_[t];
+        if ((point - middle_[t]).squaredNorm() > within * within)
+            return;
         const auto at = [&](std::size_t i) -> const Vec3& {
             return node_[static_cast<std::size_t>(triangle_[t][i])];
         };
@@ -123,6 +130,28 @@ StruckSurface::Place StruckSurface::nearest(const Vec3& point, const Vec3& outwa
             least[looks] = distance;
             best[looks] = {static_cast<int>(t), w, x, distance};
         }
+    };
+    if (const auto t = static_cast<std::size_t>(likely); t < triangle_.size())
+        look(t);
+    // Middles by the dozen first: most are far off. Floats err by less than the slack.
+    constexpr std::size_t kBlock = 64;
+    const float slack = 1e-5f * static_cast<float>(radius_);
+    const Eigen::Vector3f p = point.cast<float>();
+    float square[kBlock];
+    for (std::size_t begin = 0; begin < triangle_.size(); begin += kBlock) {
+        const std::size_t count = std::min(kBlock, triangle_.size() - begin);
+        const float *x = middle_of_[0].data() + begin, *y = middle_of_[1].data() + begin,
+                    *z = middle_of_[2].data() + begin;
+        for (std::size_t i = 0; i < count; ++i) {
+            const float dx = x[i] - p[0], dy = y[i] - p[1], dz = z[i] - p[2];
+            square[i] = dx * dx + dy * dy + dz * dz;
+        }
+        const double farthest = least[1] < HUGE_VAL ? least[1] : HUGE_VAL;
+        const float within = static_cast<float>(farthest + longest_) + slack;
+        const float limit = within * within;
+        for (std::size_t i = 0; i < count; ++i)
+            if (square[i] <= limit)
+                look(begin + i);
     }
     return least[1] < HUGE_VAL ? best[1] : best[0];
 }

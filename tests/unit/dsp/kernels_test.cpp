@@ -214,6 +214,49 @@ TEST_P(EveryKernel, HighPassIsItsRecurrence) {
         }
     }
 }
+// What slides along in registers is what every sample puts down by itself.
+TEST_P(EveryKernel, SpreadPutsEverySampleAtItsDelay) {
+    constexpr int kRing = 1024;
+    for (const double pace : {0.0, 0.03, -0.04, 0.9, -1.1}) {
+        AlignedVector ring(kRing + SplatTable::kTaps), expected(kRing + SplatTable::kTaps);
+        SpreadRun run{};
+        run.samples = SpreadRun::kMost;
+        run.every = 2;
+        std::vector<float> value(SpreadRun::kMost);
+        for (int i = 0; i < run.samples; ++i)
+            value[static_cast<std::size_t>(i)] = static_cast<float>(noise(i));
+        run.value = value.data();
+        run.delay = 153.37;
+        run.pace = pace;
+        run.bend = 1e-3;
+        run.table = splat_table().float_rows();
+        SplatEar ear{};
+        ear.ring[0] = ring.data();
+        ear.mask = kRing - 1;
+        ear.sample = 800; // beyond the ring's end on the way
+        ear.min_delay = 0;
+        ear.max_delay = 190;
+        kernel.spread(run, ear);
+        for (int i = 0; i < run.samples; ++i) {
+            const double delay = run.delay + i * (run.pace + i * run.bend);
+            if (delay > ear.max_delay)
+                continue;
+            const int whole = static_cast<int>(delay);
+            const double place = (delay - whole) * SplatTable::kPhases;
+            const int phase = static_cast<int>(place);
+            const double* row = splat_table().rows() + phase * SplatTable::kTaps;
+            for (int j = 0; j < SplatTable::kTaps; ++j) {
+                const int cell = 800 + 2 * i + whole - SplatTable::kBefore + j;
+                const double weight =
+                    row[j] + (place - phase) * (row[j + SplatTable::kTaps] - row[j]);
+                expected[static_cast<std::size_t>(cell & (kRing - 1))] +=
+                    weight * static_cast<double>(value[static_cast<std::size_t>(i)]);
+            }
+        }
+        for (std::size_t i = 0; i < kRing; ++i)
+            EXPECT_NEAR(ring[i], expected[i], 3e-6) << pace << ", " << i; // floats of 5
+    }
+}
 
 INSTANTIATE_TEST_SUITE_P(Sets, EveryKernel,
                          testing::ValuesIn(all_kernels().begin(), all_kernels().end()),

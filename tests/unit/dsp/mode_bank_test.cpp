@@ -83,5 +83,42 @@ TEST(ModeBank, WeighsEachEar) {
     }
 }
 
+TEST(ModeBank, IsPushedAfterEachStep) {
+    for (const Kernels* set : all_kernels()) {
+        std::mt19937 random(3);
+        AlignedFloats step = random_row(random, 4 * kColumns);
+        for (float& x : step)
+            x *= 0.1f;
+        AlignedFloats q = random_row(random, kColumns), v = random_row(random, kColumns);
+        AlignedFloats q_own = q, v_own = v, row[2];
+        const AlignedFloats push[3] = {random_row(random, kColumns), random_row(random, kModeLanes),
+                                       random_row(random, kModeLanes)};
+        AlignedFloats series[2] = {random_row(random, kSamples), random_row(random, kSamples)};
+        series[0][3] = 0.0f;
+        const RingPush given[2] = {{series[0].data(), nullptr, push[0].data(), kColumns},
+                                   {series[1].data(), push[1].data(), push[2].data(), kModeLanes}};
+        AlignedFloats q_rows(kColumns * kSamples), v_rows(kColumns * kSamples);
+        row[0].resize(kColumns);
+        row[1].resize(kColumns);
+        set->ring_pushed(kColumns, kSamples, step.data(), kColumns, q.data(), v.data(),
+                         q_rows.data(), v_rows.data(), given, 2);
+        for (std::size_t s = 0; s < kSamples; ++s) {
+            set->ring(kColumns, 1, step.data(), kColumns, q_own.data(), v_own.data(), row[0].data(),
+                      row[1].data());
+            for (std::size_t k = 0; k < kColumns; ++k)
+                v_own[k] += series[0][s] * push[0][k];
+            for (std::size_t k = 0; k < kModeLanes; ++k) {
+                q_own[k] += series[1][s] * push[1][k];
+                v_own[k] += series[1][s] * push[2][k];
+            }
+        }
+        for (std::size_t k = 0; k < kColumns; ++k) {
+            const float size = 1.0f + std::hypot(q_own[k], v_own[k]);
+            EXPECT_NEAR(q[k], q_own[k], 1e-5f * size) << set->name;
+            EXPECT_NEAR(v[k], v_own[k], 1e-5f * size) << set->name;
+        }
+    }
+}
+
 } // namespace
 } // namespace ode::sound
