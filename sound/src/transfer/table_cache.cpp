@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raise when the numbers in a table, or how they are laid out here, change.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr char kMagic[8] = {'O', 'S', 'B', 's', 'o', 'u', 'n', 'd'};
 
 /// Not meant to resist forgery. The standard library may hash otherwise elsewhere: a table is then

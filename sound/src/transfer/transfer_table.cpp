@@ -62,6 +62,20 @@ Eigen::VectorXcd slope_of(const ModalSurface& s, std::span<const Facet> facet, s
     return q;
 }
 
+/// Volume that a mode moves outward, over the surface's area.
+double mean_outflow(const ModalSurface& s, std::span<const Facet> facet, std::size_t mode) {
+    const double* shape = s.shape.data() + 3 * mode * s.mesh.node.size();
+    double flow = 0.0, area = 0.0;
+    for (std::size_t t = 0; t < facet.size(); ++t) {
+        Vec3 sum = Vec3::Zero();
+        for (const int i : s.mesh.triangle[t])
+            sum += Eigen::Map<const Vec3>(shape + 3 * i);
+        flow += facet[t].area / 3.0 * sum.dot(facet[t].normal);
+        area += facet[t].area;
+    }
+    return flow / area;
+}
+
 /// Adds a triangle by points a quarter of a wavelength apart at most.
 /// @param p, q  pressure and its slope at the corners of every triangle, one column a wave.
 void add_facet(OutgoingSum& sum, const Facet& f, Eigen::Index first, const Vec3& centre, double k,
@@ -110,6 +124,7 @@ TransferTable make_transfer_table(const ModalSurface& given, const TransferOptio
     const ModalSurface s = fitted(given, o);
     const HelmholtzProblem problem(s.mesh);
     const std::span<const Facet> facet = problem.facets();
+    const std::vector<Facet> fine = given.mesh.facets();
     TransferTable table;
     table.centre = s.mesh.centre();
     table.radius = s.mesh.radius(table.centre);
@@ -126,7 +141,9 @@ TransferTable make_transfer_table(const ModalSurface& given, const TransferOptio
         Eigen::MatrixXcd slope(3 * static_cast<Eigen::Index>(facet.size()),
                                static_cast<Eigen::Index>(end - first));
         for (std::size_t m = first; m < end; ++m)
-            slope.col(static_cast<Eigen::Index>(m - first)) = slope_of(s, facet, m, o.density);
+            slope.col(static_cast<Eigen::Index>(m - first)) =
+                slope_of(s, facet, m, o.density).array() -
+                o.density * (mean_outflow(given, fine, m) - mean_outflow(s, facet, m));
         Eigen::MatrixXcd pressure(slope.rows(), slope.cols());
         if (f <= table.boundary_limit) {
             const Eigen::MatrixXcd nodal = problem.solve(k, slope);

@@ -2,6 +2,7 @@
 
 #include "transfer/helmholtz.h"
 #include "unit/transfer/shapes.h"
+#include "unit/transfer/spherical_cap.h"
 
 #include <cmath>
 
@@ -65,6 +66,18 @@ double finer_bar(const RadiatingBody& b, double ka) {
     return std::abs(problem.at(b.ear, k, slope, p));
 }
 
+/// Bending of a half sphere's shell that stretches nothing: Rayleigh, Theory of Sound, 235 (his
+/// mode of two waves, along the radius; it grows towards the rim).
+double bowl_shape(double theta) {
+    return (2.0 + std::cos(theta)) * std::pow(std::tan(0.5 * theta), 2);
+}
+
+double bowl_by_series(const RadiatingBody& b, double ka) {
+    // Slope per unit acceleration -rho w; lengths in radii.
+    const SphericalCap cap(ka, 2, [](double theta) { return -kDensity * bowl_shape(theta); });
+    return b.size * std::abs(cap.pressure(b.ear / b.size));
+}
+
 RadiatingBody scaled(std::string name, BoundaryMesh mesh,
                      double (*reference)(const RadiatingBody&, double), std::string source,
                      bool compact) {
@@ -96,6 +109,14 @@ std::vector<RadiatingBody> radiating_bodies() {
         if (aside)
             b.ear = kDistance * Vec3(0.5, 0.0, std::sqrt(0.75));
         all.push_back(std::move(b));
+    }
+    all.push_back(scaled("thin bowl, two waves", bowl(0.01, 10), bowl_by_series, "series", false));
+    all.back().ear = kDistance * Vec3(0.8, 0.0, 0.6);
+    for (const Vec3& x : all.back().mesh.node) {
+        const double swing =
+            bowl_shape(std::acos(x.normalized().z())) * std::cos(2.0 * std::atan2(x.y(), x.x()));
+        for (int k = 0; k < 3; ++k)
+            all.back().shape.push_back(swing * x.normalized()[k]);
     }
     for (const int n : {1, 2}) {
         RadiatingBody b;

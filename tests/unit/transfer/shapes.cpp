@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -80,6 +81,15 @@ BoundaryMesh disc(double thickness, int rings) {
         const int a = first + i, b = first + (i + 1) % (6 * rings);
         m.triangle.push_back({a, a + half, b + half});
         m.triangle.push_back({a, b + half, b});
+    }
+    return m;
+}
+
+BoundaryMesh bowl(double thickness, int rings) {
+    BoundaryMesh m = disc(thickness, rings);
+    for (Vec3& x : m.node) { // the disc's radii are the sines of even steps
+        const double rim = std::min(1.0, std::hypot(x[0], x[1])), r = 1.0 + x[2];
+        x = r * Vec3(x[0], x[1], std::sqrt(1.0 - rim * rim));
     }
     return m;
 }
