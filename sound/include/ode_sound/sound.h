@@ -285,4 +285,6 @@ DSOUND_API const char* dSoundSinkGetError(dSoundSinkID sink);
 }
 #endif
 
+#include <ode_sound/surface.h>
+
 #endif

@@ -148,7 +148,7 @@ int dSoundSetGeomSolid(dSoundWorldID world, dGeomID geom, const dSoftSolid* soli
                      solid->young, solid->poisson);
             return 0;
         }
-        world->world.rigid().set_elastic(geom, {solid->young, solid->poisson});
+        world->world.rigid().geoms().set_elastic(geom, {solid->young, solid->poisson});
         return 1;
     });
 }

@@ -9,34 +9,12 @@
 namespace ode::sound {
 namespace {
 
-/// A stone floor: what a body strikes that nobody has told of.
-constexpr Elastic kStone{30e9, 0.2};
-
 /// Slower than this no blow of a body without modes is heard to be [rad/s].
 constexpr double kHearing = 2.0 * 3.14159 * 2000.0;
 
 FramePose pose_of(dBodyID body, double time) {
     const dReal *x = dBodyGetPosition(body), *q = dBodyGetQuaternion(body);
     return {time, Vec3(x), Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
-}
-
-/// Mean curvature of a geom that has no mesh here [1/m].
-double curvature_of(dGeomID geom) {
-    if (!geom)
-        return 0.0;
-    dReal radius = 0.0, length = 0.0;
-    switch (dGeomGetClass(geom)) {
-    case dSphereClass:
-        return 1.0 / dGeomSphereGetRadius(geom);
-    case dCapsuleClass:
-        dGeomCapsuleGetParams(geom, &radius, &length);
-        return 0.5 / radius;
-    case dCylinderClass:
-        dGeomCylinderGetParams(geom, &radius, &length);
-        return 0.5 / radius;
-    default:
-        return 0.0;
-    }
 }
 
 /// Whether this contact is one of those that the body had lately; notes it.
@@ -65,8 +43,6 @@ Acquaintance meet_again(RigidBody& body, const void* partner, const Vec3& local,
 
 } // namespace
 
-RigidBodies::RigidBodies() : default_elastic_(kStone) {}
-
 RigidBodies::~RigidBodies() {
     for (const auto& own : body_) {
         dSoftRigidWatchDestroy(own->watch);
@@ -79,6 +55,8 @@ std::shared_ptr<RigidBody> RigidBodies::add(dBodyID body, std::shared_ptr<const 
     made->body = body;
     made->watch = dSoftRigidWatchCreate(body);
     made->push.assign(model->omega.size(), 0.0f);
+    made->damping.assign(model->omega.size(), 0.0f);
+    made->shape = made->damping;
     made->model = std::move(model);
     made->known.reserve(32);
     body_.push_back(made);
@@ -88,6 +66,7 @@ std::shared_ptr<RigidBody> RigidBodies::add(dBodyID body, std::shared_ptr<const 
 
 void RigidBodies::remove(RigidBody& body, Scene& scene) noexcept {
     scene.end_body(&body);
+    scrapes_.forget(body);
     dSoftRigidWatchDestroy(body.watch);
     body.body = nullptr;
     std::erase_if(body_, [&](const auto& own) { return own.get() == &body; });
@@ -104,13 +83,6 @@ void RigidBodies::list() {
 RigidBody* RigidBodies::find(dBodyID body) const noexcept {
     const auto at = std::lower_bound(order_.begin(), order_.end(), std::pair(body, std::size_t{}));
     return at != order_.end() && at->first == body ? body_[at->second].get() : nullptr;
-}
-
-void RigidBodies::set_elastic(dGeomID geom, const Elastic& elastic) {
-    if (geom)
-        elastic_[geom] = elastic;
-    else
-        default_elastic_ = elastic;
 }
 
 void RigidBodies::begin_step(dSoftWorldID world, double time, Scene& scene) {
@@ -131,7 +103,7 @@ void RigidBodies::begin_step(dSoftWorldID world, double time, Scene& scene) {
 }
 
 StruckVoice& RigidBodies::voice(const RigidBody& body, Scene& scene, RigidModels& models) const {
-    if (StruckVoice* found = scene.find_struck(&body))
+    if (StruckVoice* found = scene.find_struck(&body, body.place_in_scene))
         return *found;
     return scene.add_struck(&body, models.voice(body.model, scene.settings()));
 }
@@ -182,32 +154,14 @@ void RigidBodies::meet(RigidTouch& touch, double h, Scene& scene, RigidModels& m
         meet_again(own, partner, touch.motion[mine].place_in_frame(touch.position), touch.position,
                    moved, begin_, std::max(before_, h));
     const std::optional<Blow> blow = find_blow(touch, acquaintance, begin_, h, before_);
-    if (!blow)
+    if (!blow) {
+        // What chatters neither holds nor slides for long.
+        if (acquaintance == Acquaintance::kLasting && touch.impulse.dot(touch.normal) > 0.0)
+            bear(touch, side, partner, touch.impulse.dot(touch.normal) / h, scene, models);
         return;
-    StruckSurface::Place place[2];
-    Elastic elastic[2];
-    double curvature = 0.0, reach = 0.0;
-    for (int i = 0; i < 2; ++i) {
-        if (side[i]) {
-            const StruckSurface& surface = side[i]->model->surface;
-            const RigidMotion& motion = touch.motion[i];
-            place[i] = surface.nearest(
-                motion.place_in_frame(touch.position),
-                motion.into_frame(i == 0 ? Vec3(-touch.normal) : touch.normal), side[i]->likely);
-            side[i]->likely = place[i].triangle;
-            elastic[i] = side[i]->model->elastic;
-            curvature += surface.curvature(place[i]);
-            reach = std::max(reach, surface.radius());
-        } else {
-            const auto told = elastic_.find(touch.geom[i]);
-            elastic[i] = told != elastic_.end() ? told->second : default_elastic_;
-            curvature += curvature_of(touch.geom[i]);
-        }
     }
-    // Faces that lie flat on one another bulge by something: as a ball ten times their size.
-    curvature = std::max(curvature, 0.1 / reach);
-    const double pressed =
-        contact_time(blow->mass, curvature, contact_modulus(elastic[0], elastic[1]), blow->speed);
+    const ContactPatch patch = patch_of(touch, side, geoms_);
+    const double pressed = contact_time(blow->mass, patch.curvature, patch.modulus, blow->speed);
     const double duration = blow->goes_on ? std::max(pressed, 2.0 * h) : pressed;
     // What takes longer than a body's slowest wave bends it and doesn't ring it.
     bool any = false;
@@ -240,13 +194,48 @@ void RigidBodies::meet(RigidTouch& touch, double h, Scene& scene, RigidModels& m
         ++side[i]->blows;
         const RigidMotion& motion = touch.motion[i];
         const Vec3 along = motion.into_frame(i == 0 ? blow->impulse : Vec3(-blow->impulse));
-        side[i]->model->surface.project(place[i], along, side[i]->push);
+        side[i]->model->surface.project(patch.place[i], along, side[i]->push);
         stroke.jerk[i] += motion.jerk(motion.place_in_frame(touch.position), along);
     }
     stroke.given += impulse;
     stroke.time += part * (blow->time - stroke.time);
     stroke.duration += part * (duration - stroke.duration);
     stroke.energy += blow->energy;
+}
+
+void RigidBodies::bear(const RigidTouch& touch, RigidBody* const side[2], const void* partner,
+                       double load, Scene& scene, RigidModels& models) {
+    scrapes_.bear(touch, side, partner, load);
+    bool rings = false;
+    for (int i = 0; i < 2; ++i)
+        rings = rings || (side[i] && side[i]->bearings < RigidBody::kMostBearings &&
+                          !voice(*side[i], scene, models).is_silent());
+    if (!rings)
+        return;
+    const ContactPatch patch = patch_of(touch, side, geoms_);
+    const double stiffness = bearing_stiffness(load, patch.curvature, patch.modulus);
+    for (int i = 0; i < 2; ++i) {
+        if (!side[i] || side[i]->bearings == RigidBody::kMostBearings)
+            continue;
+        ++side[i]->bearings;
+        const RigidModel& model = *side[i]->model;
+        // Along the normal, and along the surface where friction holds (Mindlin: less stiff).
+        const Vec3 n = touch.motion[i].into_frame(touch.normal), u = n.unitOrthogonal();
+        const double nu = model.elastic.poisson;
+        const double along = touch.friction == 0.0 ? 0.0 : 2.0 * (1.0 - nu) / (2.0 - nu);
+        const std::pair<Vec3, double> way[] = {{n, 1.0}, {u, along}, {n.cross(u), along}};
+        for (const auto& [direction, part] : way) {
+            std::fill(side[i]->shape.begin(), side[i]->shape.end(), 0.0f);
+            model.surface.project(patch.place[i], direction, side[i]->shape);
+            for (std::size_t k = 0; k < model.omega.size(); ++k) {
+                const double w = model.omega[k];
+                const double held = part * stiffness * static_cast<double>(side[i]->shape[k]) *
+                                    static_cast<double>(side[i]->shape[k]);
+                side[i]->damping[k] +=
+                    static_cast<float>(0.5 * w * patch.loss * held / (w * w + held));
+            }
+        }
+    }
 }
 
 void RigidBodies::deal(Scene& scene, RigidModels& models) {
@@ -275,6 +264,10 @@ void RigidBodies::deal(Scene& scene, RigidModels& models) {
 void RigidBodies::end_step(double time, Scene& scene, RigidModels& models) {
     const double h = time - begin_;
     touches_.read(h);
+    for (const auto& own : body_) {
+        own->bearings = 0;
+        std::fill(own->damping.begin(), own->damping.end(), 0.0f);
+    }
     for (const auto& own : body_)
         voice(*own, scene, models);
     for (RigidTouch& touch : touches_.all())
@@ -286,6 +279,16 @@ void RigidBodies::end_step(double time, Scene& scene, RigidModels& models) {
         });
     scene.advance_struck(
         [](const void* key) { return static_cast<const RigidBody*>(key)->before; });
+    // From here on for the step that has just been made, which is heard after the next.
+    scrapes_.end_step(begin_, time, scene.settings().rate, geoms_,
+                      [&](RigidBody& own) -> StruckVoice& { return voice(own, scene, models); });
+    for (const auto& own : body_) {
+        if (own->bearings > 0 || own->damped)
+            voice(*own, scene, models)
+                .damp(own->bearings > 0 ? std::span<const float>(own->damping)
+                                        : std::span<const float>());
+        own->damped = own->bearings > 0;
+    }
     before_ = h;
 }
 

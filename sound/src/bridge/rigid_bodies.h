@@ -1,10 +1,11 @@
 #pragma once
 
+#include "bridge/contact_sides.h"
 #include "bridge/rigid_model.h"
+#include "bridge/rigid_scrapes.h"
 #include "bridge/rigid_touch.h"
 #include "mix/scene.h"
 
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -28,7 +29,14 @@ struct RigidBody {
     std::vector<Known> known;
     std::vector<float> push; ///< scratch, one a mode
     int likely = 0;          ///< triangle that was touched last
-    unsigned long blows = 0; ///< that it got
+    /// Contacts that damp it in one step at most; two hold it as well as ten.
+    static constexpr int kMostBearings = 4;
+    int bearings = 0;                       ///< in this step
+    bool damped = false;                    ///< in the step before
+    std::vector<float> damping;             ///< of each mode by them [1/s]
+    std::vector<float> shape;               ///< scratch
+    mutable std::size_t place_in_scene = 0; ///< likely
+    unsigned long blows = 0;                ///< that it got
 };
 
 /// Blows that two bodies deal each other in one step and nearly at once: one pulse of the sum. What
@@ -53,7 +61,7 @@ struct Stroke {
 /// in the step before, at a time that depth and closing speed tell.
 class RigidBodies {
 public:
-    RigidBodies();
+    RigidBodies() = default;
     ~RigidBodies();
     RigidBodies(const RigidBodies&) = delete;
     RigidBodies& operator=(const RigidBodies&) = delete;
@@ -63,8 +71,7 @@ public:
     bool has(dBodyID body) const noexcept { return find(body) != nullptr; }
     bool empty() const noexcept { return body_.empty(); }
 
-    /// What geoms without a voice are made of. @param geom  null: all not told of.
-    void set_elastic(dGeomID geom, const Elastic& elastic);
+    Geoms& geoms() noexcept { return geoms_; }
 
     /// Before ODE's step, from `time` on. @param scene  takes the voices of bodies that have ended.
     void begin_step(dSoftWorldID world, double time, Scene& scene);
@@ -82,15 +89,19 @@ private:
     void list();
     RigidBody* find(dBodyID body) const noexcept;
     void meet(RigidTouch& touch, double h, Scene& scene, RigidModels& models);
+    /// A contact that bears a load: it damps what rings (by its share of the strain energy: E. E.
+    /// Ungar, E. M. Kerwin, J. Acoust. Soc. Am. 34, 1962) and, sliding or rolling, makes it sound.
+    void bear(const RigidTouch& touch, RigidBody* const side[2], const void* partner, double load,
+              Scene& scene, RigidModels& models);
     /// Lets the pending stroke be heard.
     void deal(Scene& scene, RigidModels& models);
     bool locate(RigidTouch& touch) const noexcept;
 
     std::vector<std::shared_ptr<RigidBody>> body_;
     std::vector<std::pair<dBodyID, std::size_t>> order_; ///< by address; index in body_
-    std::map<dGeomID, Elastic> elastic_;
-    Elastic default_elastic_;
+    Geoms geoms_;
     RigidTouches touches_;
+    RigidScrapes scrapes_;
     Stroke stroke_;       ///< not dealt yet
     double begin_ = 0.0;  ///< of the present step [s]
     double before_ = 0.0; ///< length of the step before [s]

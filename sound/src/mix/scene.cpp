@@ -108,9 +108,20 @@ StruckVoice& Scene::add_struck(const void* body, std::shared_ptr<const StruckVoi
 }
 
 StruckVoice* Scene::find_struck(const void* body) noexcept {
-    const auto found = std::find_if(bodies_.begin(), bodies_.end(),
-                                    [&](const Body& own) { return own.key == body && own.struck; });
-    return found != bodies_.end() ? found->struck.get() : nullptr;
+    std::size_t anywhere = 0;
+    return find_struck(body, anywhere);
+}
+
+StruckVoice* Scene::find_struck(const void* body, std::size_t& likely) noexcept {
+    if (likely >= bodies_.size() || bodies_[likely].key != body || !bodies_[likely].struck) {
+        const auto found = std::find_if(bodies_.begin(), bodies_.end(), [&](const Body& own) {
+            return own.key == body && own.struck;
+        });
+        if (found == bodies_.end())
+            return nullptr;
+        likely = static_cast<std::size_t>(found - bodies_.begin());
+    }
+    return bodies_[likely].struck.get();
 }
 
 void Scene::set_gain(const void* body, double gain) {

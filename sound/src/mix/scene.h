@@ -67,6 +67,8 @@ public:
     /// listener goes.
     StruckVoice& add_struck(const void* body, std::shared_ptr<const StruckVoiceModel> model);
     StruckVoice* find_struck(const void* body) noexcept;
+    /// The same. @param likely  where it was found last; kept.
+    StruckVoice* find_struck(const void* body, std::size_t& likely) noexcept;
     /// Lets rigid bodies give off what they did. @param pose  of a body, by its address.
     template <class Pose>
     void advance_struck(Pose pose) {

@@ -20,6 +20,19 @@ std::size_t padded(std::size_t columns) {
     return (columns + kModeLanes - 1) / kModeLanes * kModeLanes;
 }
 
+/// What a change of the body's velocity gives the click's columns: U jumps, V and V' don't.
+void jolt(const StruckVoiceModel& model, const RigidSound::Six& jerk,
+          std::array<float, kModeLanes>& click, std::array<float, kModeLanes>& rate) noexcept {
+    const Vec3 all = model.rigid.dipole * jerk;
+    const double part = model.click.share, forget = model.click.forget;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double own = all[static_cast<int>(i)];
+        click[i] = static_cast<float>(-part * own);
+        rate[i] = static_cast<float>(part * forget * own);
+        click[3 + i] = static_cast<float>(own);
+    }
+}
+
 } // namespace
 
 void find_steps(StruckVoiceModel& model, double rate) {
@@ -61,6 +74,9 @@ StruckVoice::StruckVoice(std::shared_ptr<const StruckVoiceModel> model, double r
     rate_of_.assign(model_->columns, 0.0f);
     for (Pulse& pulse : pulse_)
         pulse.push.assign(model_->columns, 0.0f);
+    for (Drive& drive : drive_)
+        drive.push.assign(model_->columns, 0.0f);
+    damped_step_ = model_->step;
 }
 
 void StruckVoice::give_rest(const Pulse& pulse) noexcept {
@@ -86,15 +102,7 @@ void StruckVoice::strike(double time, double duration, std::span<const float> pu
     made.begin = time;
     made.duration = duration;
     made.given = made.click_given = 0.0;
-    // U jumps, V and V' don't.
-    const Vec3 click = model_->rigid.dipole * jerk;
-    const double part = model_->click.share, forget = model_->click.forget;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double own = click[static_cast<int>(i)];
-        made.click[i] = static_cast<float>(-part * own);
-        made.click_rate[i] = static_cast<float>(part * forget * own);
-        made.click[3 + i] = static_cast<float>(own);
-    }
+    jolt(*model_, jerk, made.click, made.click_rate);
     for (std::size_t k = 0; k < model_->omega.size(); ++k) {
         const double half = 0.5 * model_->omega[k] / rate_;
         // What the rate can't carry is left out.
@@ -106,12 +114,39 @@ void StruckVoice::strike(double time, double duration, std::span<const float> pu
     active_ = model_->columns;
 }
 
+void StruckVoice::drive(std::int64_t begin, std::span<const float> series,
+                        std::span<const float> push, const RigidSound::Six& jerk) noexcept {
+    if (drives_ == kMostDrives)
+        return;
+    Drive& made = drive_[drives_++];
+    made.begin = begin;
+    made.series = series;
+    for (std::size_t k = 0; k < push.size(); ++k)
+        made.push[kClick + k] = model_->omega[k] < 0.98 * std::numbers::pi * rate_ ? push[k] : 0.0f;
+    jolt(*model_, jerk, made.click, made.click_rate);
+    active_ = model_->columns;
+}
+
+void StruckVoice::damp(std::span<const float> decay) noexcept {
+    damped_ = !decay.empty();
+    const std::size_t all = model_->columns;
+    for (std::size_t k = 0; k < decay.size(); ++k) {
+        // The step's matrix times g, of which changes are kept: g (1 + a) - 1 = a + less (1 + a).
+        const auto less = static_cast<float>(std::expm1(-static_cast<double>(decay[k]) / rate_));
+        for (std::size_t row = 0; row < 4; ++row) {
+            const std::size_t at = row * all + kClick + k;
+            const float own = model_->step[at];
+            damped_step_[at] = own + less * (own + (row == 0 || row == 3 ? 1.0f : 0.0f));
+        }
+    }
+}
+
 void StruckVoice::ring(std::int64_t first, int samples) noexcept {
     float* const q_rows = model_->amplitude_rows.data();
     float* const v_rows = model_->rate_rows.data();
     const auto columns = static_cast<int>(active_), stride = static_cast<int>(model_->columns);
-    float series[2 * kMostPulses][ModalRun::kMost];
-    RingPush push[2 * kMostPulses];
+    float series[2 * kMostPulses + kMostDrives][ModalRun::kMost];
+    RingPush push[2 * (kMostPulses + kMostDrives)];
     int pushes = 0;
     for (std::size_t p = 0; p < pulses_; ++p) {
         Pulse& pulse = pulse_[p];
@@ -135,12 +170,24 @@ void StruckVoice::ring(std::int64_t first, int samples) noexcept {
         follow(lead_, pulse.given, nullptr, pulse.push.data(), columns);
         follow(0.0, pulse.click_given, pulse.click.data(), pulse.click_rate.data(), kModeLanes);
     }
+    int rows = pushes;
+    for (std::size_t d = 0; d < drives_; ++d) {
+        const Drive& drive = drive_[d];
+        float* const row = series[rows++];
+        for (int i = 0; i < samples; ++i) {
+            const auto at = static_cast<std::size_t>(first + i - drive.begin - 1);
+            row[i] = at < drive.series.size() ? drive.series[at] : 0.0f;
+        }
+        push[pushes++] = {row, nullptr, drive.push.data(), columns};
+        push[pushes++] = {row, drive.click.data(), drive.click_rate.data(), kModeLanes};
+    }
+    const float* const step = damped_ ? damped_step_.data() : model_->step.data();
     if (pushes > 0)
-        kernels().ring_pushed(columns, samples, model_->step.data(), stride, amplitude_.data(),
-                              rate_of_.data(), q_rows, v_rows, push, pushes);
+        kernels().ring_pushed(columns, samples, step, stride, amplitude_.data(), rate_of_.data(),
+                              q_rows, v_rows, push, pushes);
     else
-        kernels().ring(columns, samples, model_->step.data(), stride, amplitude_.data(),
-                       rate_of_.data(), q_rows, v_rows);
+        kernels().ring(columns, samples, step, stride, amplitude_.data(), rate_of_.data(), q_rows,
+                       v_rows);
     std::size_t kept = 0;
     for (std::size_t p = 0; p < pulses_; ++p)
         if (pulse_[p].given < 1.0) {
@@ -236,17 +283,20 @@ void StruckVoice::advance(const FramePose& pose, BlockSink& out) {
         begun_ = true;
         pose_ = pose;
         done_ = last;
+        drives_ = 0;
         return;
     }
     if (is_silent())
         done_ = std::max(done_, last);
     else
         run(last, pose, false, out);
+    drives_ = 0;
     settle();
     pose_ = pose;
 }
 
 void StruckVoice::finish(BlockSink& out) {
+    drives_ = 0; // what they point at may have gone
     if (is_silent())
         return;
     FramePose end = pose_;

@@ -47,8 +47,9 @@ void find_steps(StruckVoiceModel& model, double rate);
 class StruckVoice {
 public:
     static constexpr std::size_t kMostPulses = 24; ///< at a time; a further one cuts the oldest off
-    static constexpr double kInaudible = 2e-6;     ///< [Pa] at 1 m: 20 dB below hearing
-    static constexpr int kEvery = 2;               ///< samples of the grid for one of these
+    static constexpr std::size_t kMostDrives = 8;
+    static constexpr double kInaudible = 2e-6; ///< [Pa] at 1 m: 20 dB below hearing
+    static constexpr int kEvery = 2;           ///< samples of the grid for one of these
 
     /// @param rate  of audio [Hz].
     StruckVoice(std::shared_ptr<const StruckVoiceModel> model, double rate);
@@ -60,12 +61,21 @@ public:
     void strike(double time, double duration, std::span<const float> push,
                 const RigidSound::Six& jerk) noexcept;
 
+    /// Forces that last: what each sample after `begin` gives, in [N s] along one direction at one
+    /// place. Up to kMostDrives at a time, further ones are not heard. `series` must last until the
+    /// next advance(), which takes what there is of it.
+    /// @param push, jerk  as in strike(), of 1 N s.
+    void drive(std::int64_t begin, std::span<const float> series, std::span<const float> push,
+               const RigidSound::Six& jerk) noexcept;
+    /// Decays of the modes beside their own until the next call [1/s]. Empty: none.
+    void damp(std::span<const float> decay) noexcept;
+
     /// Gives off all samples from the last pose to this one.
     void advance(const FramePose& pose, BlockSink& out);
     /// Falls silent within ModalVoice::kFadeTime.
     void finish(BlockSink& out);
 
-    bool is_silent() const noexcept { return active_ == 0 && pulses_ == 0; }
+    bool is_silent() const noexcept { return active_ == 0 && pulses_ == 0 && drives_ == 0; }
     const StruckVoiceModel& model() const noexcept { return *model_; }
     double energy() const noexcept; ///< of all modes [J]
     std::span<const float> rates() const noexcept {
@@ -78,6 +88,13 @@ private:
         double given = 0.0, click_given = 0.0;                           ///< shares of the impulse
         AlignedFloats push;                                              ///< columns
         alignas(64) std::array<float, kModeLanes> click{}, click_rate{}; ///< of the first columns
+    };
+
+    struct Drive {
+        std::int64_t begin = 0;
+        std::span<const float> series;
+        AlignedFloats push;
+        alignas(64) std::array<float, kModeLanes> click{}, click_rate{};
     };
 
     void run(std::int64_t last, const FramePose& to, bool fading, BlockSink& out);
@@ -93,6 +110,10 @@ private:
     AlignedFloats amplitude_, rate_of_;    ///< columns
     std::array<Pulse, kMostPulses> pulse_; ///< pulses_ of them, the oldest first
     std::size_t pulses_ = 0;
+    std::array<Drive, kMostDrives> drive_; ///< drives_ of them
+    std::size_t drives_ = 0;
+    AlignedFloats damped_step_; ///< as StruckVoiceModel::step, while contacts damp
+    bool damped_ = false;
     std::size_t active_ = 0; ///< columns from the first on that may be heard
     bool begun_ = false;
     FramePose pose_;        ///< at the last call

@@ -19,4 +19,12 @@ double contact_time(double mass, double curvature, double modulus, double speed)
     return time < kLongest ? std::max(time, kShortest) : kLongest;
 }
 
+double bearing_stiffness(double load, double curvature, double modulus) noexcept {
+    return std::cbrt(6.0 * modulus * modulus * load / curvature);
+}
+
+double bearing_radius(double load, double curvature, double modulus) noexcept {
+    return std::cbrt(0.75 * load / (modulus * curvature));
+}
+
 } // namespace ode::sound

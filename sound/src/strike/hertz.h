@@ -18,6 +18,13 @@ double contact_modulus(const Elastic& a, const Elastic& b) noexcept;
 /// @param curvature  1/R of both together [1/m]: of a ball on a flat the ball's.
 /// @param modulus    E* [Pa].  @param speed  closing [m/s].
 double contact_time(double mass, double curvature, double modulus, double speed) noexcept;
+
+/// dF/d(depth) = (6 E*^2 F / curvature)^(1/3) of a contact that bears a load F (same place, 4.2)
+/// [N/m].
+double bearing_stiffness(double load, double curvature, double modulus) noexcept;
+/// Of such a contact: (3 F / (4 E* curvature))^(1/3) [m].
+double bearing_radius(double load, double curvature, double modulus) noexcept;
+
 inline constexpr double kShortest = 10e-6; ///< [s]: nothing above 22 kHz is missed by longer ones
 inline constexpr double kLongest = 50e-3;  ///< [s]
 
