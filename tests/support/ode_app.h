@@ -44,8 +44,9 @@ public:
     dWorldID world;
     dSpaceID space;
     dJointGroupID contacts;
-    int pairs_seen = 0;                 ///< by the near callback
-    dReal bounce = 0;                   ///< of all contacts
+    int pairs_seen = 0; ///< by the near callback
+    dReal bounce = 0;   ///< of all contacts
+    decltype(&dJointCreateContact) join = &dJointCreateContact;
     dJointFeedback* feedback = nullptr; ///< the application's own, of the contact made last
 
 private:
@@ -62,7 +63,7 @@ private:
                 contact[i].surface.bounce = app.bounce;
                 contact[i].surface.bounce_vel = 0.01;
             }
-            const dJointID joint = dJointCreateContact(app.world, app.contacts, &contact[i]);
+            const dJointID joint = app.join(app.world, app.contacts, &contact[i]);
             dJointAttach(joint, dGeomGetBody(a), dGeomGetBody(b));
             if (app.feedback)
                 dJointSetFeedback(joint, app.feedback);

@@ -131,6 +131,26 @@ bool RigidBodies::locate(RigidTouch& touch) const noexcept {
     if (!body || !(square > 0.0))
         return false;
     const Vec3 arm = force.cross(first ? touch.turning : touch.second_turning) / square;
+    // The overlap that the line passes: how deep it is tells when they met, its geom what of.
+    const RecalledContact* best = nullptr;
+    double least = HUGE_VAL;
+    const Vec3 along = force.normalized();
+    for (const RecalledContact& own : touches_.recalled(touch)) {
+        const Vec3 off = own.position - (motion.center + arm);
+        const double distance = (off - off.dot(along) * along).norm();
+        if (distance < least && own.normal.dot(touch.impulse) > 0.0) {
+            least = distance;
+            best = &own;
+        }
+    }
+    if (best) {
+        touch.position = best->position;
+        touch.normal = best->normal;
+        touch.depth = best->depth;
+        for (int i = 0; i < 2; ++i)
+            touch.geom[i] = best->geom[i];
+        return true;
+    }
     const auto place =
         body->model->surface.entered(motion.into_frame(arm), motion.into_frame(force));
     touch.position = motion.center + motion.turn * place.point;

@@ -6,6 +6,7 @@ namespace ode::sound {
 
 void RigidTouches::begin_step() noexcept {
     touch_.clear();
+    recalled_.clear();
     used_ = 0;
 }
 
@@ -33,6 +34,8 @@ void RigidTouches::add(dSoftWorldID world, dJointID joint) {
         touch.geom[1] = made.geom[!crossed];
         if (crossed)
             touch.normal = -touch.normal;
+    } else {
+        recall(touch);
     }
     touch.feedback = dJointGetFeedback(joint);
     touch.ours = !touch.feedback;
@@ -44,6 +47,19 @@ void RigidTouches::add(dSoftWorldID world, dJointID joint) {
     }
     *touch.feedback = {}; // of a body asleep ODE leaves it as it is
     touch_.push_back(touch);
+}
+
+void RigidTouches::recall(RigidTouch& touch) {
+    // Joints of a pair come one after the other.
+    if (!touch_.empty() && !touch_.back().located && touch_.back().body[0] == touch.body[0] &&
+        touch_.back().body[1] == touch.body[1]) {
+        touch.recalled = touch_.back().recalled;
+        touch.recalled_count = touch_.back().recalled_count;
+        return;
+    }
+    touch.recalled = static_cast<int>(recalled_.size());
+    recall_contacts(touch.body[0], touch.body[1], recalled_);
+    touch.recalled_count = static_cast<int>(recalled_.size()) - touch.recalled;
 }
 
 void RigidTouches::read(double h) noexcept {

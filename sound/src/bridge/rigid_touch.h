@@ -1,10 +1,12 @@
 #pragma once
 
 #include "bridge/rigid_motion.h"
+#include "bridge/rigid_recall.h"
 
 #include <ode_softbody/softbody.h>
 
 #include <deque>
+#include <span>
 #include <vector>
 
 namespace ode::sound {
@@ -22,6 +24,8 @@ struct RigidTouch {
     double friction;          ///< Coulomb's coefficient; negative where not known
     dJointFeedback* feedback; ///< ours or the application's
     bool ours;
+    int recalled,
+        recalled_count; ///< of a joint that was not seen: those in RigidTouches::recalled()
 
     // After the step:
     Vec3 impulse = Vec3::Zero();        ///< on the first body [N s]
@@ -55,11 +59,18 @@ public:
     void read(double h) noexcept;
 
     std::vector<RigidTouch>& all() noexcept { return touch_; }
+    std::span<const RecalledContact> recalled(const RigidTouch& touch) const noexcept {
+        return std::span(recalled_).subspan(static_cast<std::size_t>(touch.recalled),
+                                            static_cast<std::size_t>(touch.recalled_count));
+    }
 
 private:
     void add(dSoftWorldID world, dJointID joint);
 
+    void recall(RigidTouch& touch);
+
     std::vector<RigidTouch> touch_;
+    std::vector<RecalledContact> recalled_;
     std::deque<dJointFeedback> feedback_; ///< addresses last
     std::size_t used_ = 0;
 };
