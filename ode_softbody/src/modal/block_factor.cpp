@@ -196,4 +196,50 @@ void BlockFactor::solve(RowMatrix& x) const {
         x.middleRows(3 * order_[static_cast<std::size_t>(k)], 3) = y.middleRows(3 * k, 3);
 }
 
+// A front's part of the inverse follows from that of its boundary, which its parent has (K.
+// Takahashi et al., Proc. 8th PICA Conf. (1973), 63): with W = L21 L11^-1
+//     Z_bo = -Z_bb W,   Z_oo = (L11 D L11^T)^-1 - W^T Z_bo.
+std::vector<Eigen::Matrix3d> BlockFactor::inverse_diagonal() const {
+    std::vector<Eigen::Matrix3d> out(order_.size());
+    std::vector<MatrixXd> known(front_.size()); // Z_bb, from the parent on
+    MatrixXd w, z;
+    for (std::size_t f = front_.size(); f-- > 0;) {
+        const Front& front = front_[f];
+        const Index own = front.own.rows(), below = 3 * static_cast<Index>(front.boundary.size());
+        z.resize(own + below, own + below);
+        z.bottomRightCorner(below, below) = known[f];
+        known[f].resize(0, 0);
+        const auto lower = front.own.triangularView<Eigen::UnitLower>();
+        MatrixXd inverse = MatrixXd::Identity(own, own);
+        lower.solveInPlace(inverse);
+        w = front.below;
+        if (below > 0)
+            lower.solveInPlace<Eigen::OnTheRight>(w);
+        z.bottomLeftCorner(below, own).noalias() = -z.bottomRightCorner(below, below) * w;
+        z.topLeftCorner(own, own).noalias() =
+            inverse.transpose() * front.own.diagonal().cwiseInverse().asDiagonal() * inverse;
+        z.topLeftCorner(own, own).noalias() -= w.transpose() * z.bottomLeftCorner(below, own);
+        z.topRightCorner(own, below) = z.bottomLeftCorner(below, own).transpose();
+        for (Index k = 0; 3 * k < own; ++k)
+            out[at(order_[at(front.first + static_cast<int>(k))])] = z.block<3, 3>(3 * k, 3 * k);
+
+        for (int k = front.first; k < front.last; ++k)
+            local_[at(k)] = k - front.first;
+        for (std::size_t k = 0; k < front.boundary.size(); ++k)
+            local_[at(front.boundary[k])] = front.last - front.first + static_cast<int>(k);
+        for (const int child : front.child) {
+            const auto& nodes = front_[at(child)].boundary;
+            const auto size = static_cast<Index>(nodes.size());
+            MatrixXd& to = known[at(child)];
+            to.resize(3 * size, 3 * size);
+            for (Index j = 0; j < size; ++j)
+                for (Index i = 0; i < size; ++i)
+                    to.block<3, 3>(3 * i, 3 * j) =
+                        z.block<3, 3>(3 * local_[at(nodes[static_cast<std::size_t>(i)])],
+                                      3 * local_[at(nodes[static_cast<std::size_t>(j)])]);
+        }
+    }
+    return out;
+}
+
 } // namespace ode::soft

@@ -6,8 +6,6 @@
 namespace ode::soft {
 namespace {
 
-constexpr Eigen::Index kAtOnce = 16;
-
 /// Row of each mesh node's x in the system; -1: held, or in no element.
 std::vector<Eigen::Index> rows_of(const ModalProblem& problem) {
     const DofMap& map = problem.map();
@@ -40,28 +38,14 @@ ResidualFlexibility residual_flexibility(const TetMesh& mesh, std::span<const So
     BlockFactor factor(problem.system());
     factor.factorise(problem.system(), shift);
     const RowMatrix& rigid = problem.rigid_motions();
-    RowMatrix x;
-    const auto pushes = static_cast<Eigen::Index>(2 * pushed.node.size());
-    for (Eigen::Index first = 0; first < pushes; first += kAtOnce) {
-        const Eigen::Index count = std::min(kAtOnce, pushes - first);
-        x.setZero(problem.system().size(), count);
-        const auto each = [&](auto visit) {
-            for (Eigen::Index c = 0; c < count; ++c) {
-                const auto push = static_cast<std::size_t>(first + c);
-                const auto node = static_cast<std::size_t>(pushed.node[push / 2]);
-                const Vec3& normal = pushed.normal[push / 2];
-                const bool across = push % 2 != 0;
-                if (row[node] >= 0)
-                    visit(c, (across ? out.across : out.normal)[node], node, row[node],
-                          across ? Vec3(normal.unitOrthogonal()) : normal);
-            }
-        };
-        each([&](Eigen::Index c, double&, std::size_t, Eigen::Index r, const Vec3& n) {
-            x.block<3, 1>(r, c) = n;
-        });
-        factor.solve(x);
-        each([&](Eigen::Index c, double& yields, std::size_t node, Eigen::Index r, const Vec3& n) {
-            double left = n.dot(Vec3(x.block<3, 1>(r, c)));
+    const std::vector<Eigen::Matrix3d> inverse = factor.inverse_diagonal();
+    for (std::size_t p = 0; p < pushed.node.size(); ++p) {
+        const auto node = static_cast<std::size_t>(pushed.node[p]);
+        const Eigen::Index r = row[node];
+        if (r < 0)
+            continue;
+        const auto yields = [&](const Vec3& n) {
+            double left = n.dot(inverse[static_cast<std::size_t>(r / 3)] * n);
             for (Eigen::Index k = 0; k < rigid.cols(); ++k) {
                 const double push = n.dot(Vec3(rigid.block<3, 1>(r, k)));
                 left -= push * push / shift;
@@ -70,8 +54,10 @@ ResidualFlexibility residual_flexibility(const TetMesh& mesh, std::span<const So
                 const double push = n.dot(modes.shape_at(k, node));
                 left -= push * push / (eigenvalue_of(modes.frequency[k]) + shift);
             }
-            yields = std::max(0.0, left);
-        });
+            return std::max(0.0, left);
+        };
+        out.normal[node] = yields(pushed.normal[p]);
+        out.across[node] = yields(pushed.normal[p].unitOrthogonal());
     }
     return out;
 }

@@ -67,6 +67,25 @@ TEST(BlockFactor, SolvesWhatItFactorised) {
     }
 }
 
+TEST(BlockFactor, InverseDiagonalIsWhatSolvesGive) {
+    for (const int order : {1, 2}) {
+        const BlockSystem s = plate(order);
+        BlockFactor factor(s);
+        ASSERT_TRUE(factor.factorise(s, 1e9));
+        const std::vector<Eigen::Matrix3d> block = factor.inverse_diagonal();
+        RowMatrix x = RowMatrix::Identity(s.size(), s.size());
+        factor.solve(x);
+        double largest = 0, off = 0;
+        for (std::size_t i = 0; i < s.node_count(); ++i) {
+            const auto r = 3 * static_cast<Eigen::Index>(i);
+            const Eigen::Matrix3d solved = x.block<3, 3>(r, r);
+            largest = std::max(largest, solved.norm());
+            off = std::max(off, (block[i] - solved).norm());
+        }
+        EXPECT_LT(off, 1e-12 * largest) << order; // both lose what the condition number takes
+    }
+}
+
 TEST(BlockFactor, CountsEigenvaluesBelowTheShift) {
     const BlockSystem s = plate(1);
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> dense(
