@@ -24,7 +24,7 @@ namespace softsound {
 namespace {
 
 constexpr double kSide = 0.3, kThickness = 3e-3; // [m]
-constexpr int kCells = 40;
+constexpr int kCells = 20;
 // Leissa's, and whether a line through the centre is at rest.
 constexpr struct {
     double lambda;

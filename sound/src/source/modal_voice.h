@@ -77,6 +77,7 @@ private:
     Vec3 center_ = Vec3::Zero();
     Vec3 before_ = Vec3::Zero();
     Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d turned_ = Eigen::Matrix3d::Identity(); ///< rotation_ at the last view
 };
 
 } // namespace ode::sound
