@@ -1,27 +1,31 @@
 #include "scenes/vibraphone.h"
 
+#include "scenes/moved_mesh.h"
+
 #include <cmath>
-#include <vector>
 
 namespace scenes {
 
-ode::soft::MeshHandle vibraphone_bar(int cells) {
+namespace {
+
+/// At a place along the bar [m].
+double thickness(double x) {
     constexpr double kMiddle = 5.025e-3, kReach = 0.11; // [m]
+    const double way = std::abs(x - kVibraphoneLength / 2) / kReach;
+    return way < 1 ? kMiddle + (kVibraphoneHeight - kMiddle) * way * way * way : kVibraphoneHeight;
+}
+
+} // namespace
+
+double vibraphone_underside(double x) { return kVibraphoneHeight / 2 - thickness(x); }
+
+ode::soft::MeshHandle vibraphone_bar(int cells) {
     const ode::soft::MeshHandle straight(made(
         dSoftMeshCreateBar(kVibraphoneLength, kVibraphoneWidth, kVibraphoneHeight, cells, 2, 1)));
-    const dReal* x = nullptr;
-    const int nodes = dSoftMeshGetNodes(straight, &x);
-    const int* element = nullptr;
-    const int elements = dSoftMeshGetElements(straight, &element);
-    std::vector<double> place(x, x + 3 * static_cast<std::ptrdiff_t>(nodes));
-    for (std::size_t i = 0; i < place.size(); i += 3) {
-        const double way = std::abs(place[i] - kVibraphoneLength / 2) / kReach;
-        const double thick =
-            way < 1 ? kMiddle + (kVibraphoneHeight - kMiddle) * way * way * way : kVibraphoneHeight;
+    return moved(straight, [](double* x) {
         const double top = kVibraphoneHeight / 2;
-        place[i + 2] = top - (top - place[i + 2]) / kVibraphoneHeight * thick;
-    }
-    return ode::soft::MeshHandle(made(dSoftMeshCreate(place.data(), nodes, element, elements)));
+        x[2] = top - (top - x[2]) / kVibraphoneHeight * thickness(x[0]);
+    });
 }
 
 } // namespace scenes

@@ -10,6 +10,8 @@ namespace scenes {
 /// Along x from 0, top at z = 7.3 mm.
 /// @param cells  along its length
 ode::soft::MeshHandle vibraphone_bar(int cells);
+/// Height of its lower face at a place along it [m].
+double vibraphone_underside(double x);
 constexpr double kVibraphoneLength = 0.36, kVibraphoneWidth = 0.05, kVibraphoneHeight = 0.0146;
 
 } // namespace scenes

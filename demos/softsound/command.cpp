@@ -23,6 +23,16 @@ void add_common(CLI::App& command, Common& common) {
     command.add_flag("--quiet", common.quiet, "No progress, no summary");
 }
 
+void add_action(CLI::App& command, Common& common, const std::string& name,
+                std::function<int()> action) {
+    add_common(command, common);
+    command.callback([&common, name, action = std::move(action)] {
+        if (common.json.empty())
+            common.json = name + ".json";
+        common.action = action;
+    });
+}
+
 void write_json(const Common& common, const nlohmann::ordered_json& results) {
     if (common.json.empty())
         return;

@@ -32,6 +32,11 @@ void add_common(CLI::App& command, Common& common);
 /// @throws std::runtime_error naming the file that cannot be written
 void write_json(const Common& common, const nlohmann::ordered_json& results);
 
+/// Adds --json and --quiet, and what is to be done after parsing. Results go to NAME.json unless
+/// told otherwise.
+void add_action(CLI::App& command, Common& common, const std::string& name,
+                std::function<int()> action);
+
 // One function a subcommand, in the file of its name.
 void add_demo(CLI::App& app, Common& common);
 void add_inspect(CLI::App& app, Common& common);

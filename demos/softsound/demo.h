@@ -6,7 +6,7 @@ namespace softsound {
 
 // One function a demo, in the file of its name.
 void add_demo_bar(CLI::App& demo, Common& common);
-void add_demo_bowl(CLI::App& demo, Common& common);
+void add_demo_bowl(CLI::App& demo, Common& common); ///< bowl, bowl-glass, bowl-wood
 void add_demo_chimes(CLI::App& demo, Common& common);
 void add_demo_crinkle(CLI::App& demo, Common& common);
 void add_demo_pendulum(CLI::App& demo, Common& common);

@@ -25,25 +25,16 @@ constexpr double kLength = 0.3, kWidth = 0.02, kThickness = 0.01; // [m]
 constexpr double kLoad = 2, kRise = 0.05;                         // [N], [s]
 
 Shown build(scenes::World& world, const Exhibit& e) {
-    Shown shown;
-    shown.material = "aluminium";
-    dSoftSolid solid = dSoftSolidDefault();
-    if (!dSoftSolidPreset(shown.material.c_str(), &solid))
-        throw scenes::Refused("material");
+    const dSoftSolid solid = preset("aluminium");
     dWorldSetGravity(world.ode(), 0, 0, 0); // its weight would add a sag of its own
-    const ode::soft::MeshHandle mesh(
-        scenes::made(dSoftMeshCreateBar(kLength, kWidth, kThickness, 30, 2, 1)));
-    shown.elements = dSoftMeshGetElements(mesh, nullptr);
-    shown.body = scenes::made(dSoftBodyCreate(world.soft(), mesh, &solid));
-    shape(shown.body, e);
-    const dReal* x = nullptr;
-    int stride = 0;
-    dSoftBodyGetPositions(shown.body, &x, &stride);
+    Shown shown = show(world, e,
+                       ode::soft::MeshHandle(
+                           scenes::made(dSoftMeshCreateBar(kLength, kWidth, kThickness, 30, 2, 1))),
+                       solid, "aluminium");
     const auto end = [](double at) {
         return [at](const dReal* p) { return std::abs(p[0] - at) < 1e-9; };
     };
-    const std::vector<int> held = nodes_where(shown.body, end(0));
-    dSoftBodyPinNodes(shown.body, held.data(), static_cast<int>(held.size()));
+    hold(shown, end(0));
     shown.drive = [body = shown.body, free = nodes_where(shown.body, end(kLength))](double t) {
         for (const int node : free)
             if (t < kRise)
@@ -61,17 +52,11 @@ Shown build(scenes::World& world, const Exhibit& e) {
 } // namespace
 
 void add_demo_bar(CLI::App& demo, Common& common) {
-    Exhibit e;
-    e.stage.name = "bar";
-    e.stage.seconds = 2;
-    e.stage.step = 1.0 / 480;
-    e.stage.ear[0] = kLength;
-    e.stage.ear[1] = -0.3;
-    e.stage.ear[2] = 0.3;
-    e.title = "clamped aluminium bar, plucked at its free end";
-    e.top = 5000;
-    e.ring_from = 0.06;
-    e.choice = {"auto", "explicit", "modal"};
+    const Exhibit e = {.stage = make_stage("bar", 2, 1.0 / 480, {kLength, -0.3, 0.3}),
+                       .title = "clamped aluminium bar, plucked at its free end",
+                       .top = 5000,
+                       .ring_from = 0.06,
+                       .choice = {"auto", "explicit", "modal"}};
     add_exhibit(
         demo, common, e, "A clamped bar is plucked at its free end",
         "Mathematics: clamped-free bending, f_n = b_n^2 / (2 pi L^2) sqrt(E I / (rho A)),\n"

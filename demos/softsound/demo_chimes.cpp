@@ -184,12 +184,8 @@ void add_demo_chimes(CLI::App& demo, Common& common) {
     chimes.add_option("--step", options->stage.step, "Of ODE [s]")
         ->check(CLI::Range(5e-4, 0.02))
         ->capture_default_str();
-    add_common(chimes, common);
-    chimes.callback([options, &common] {
-        if (common.json.empty())
-            common.json = options->stage.name + ".json";
-        common.action = [options, &common] { return run(*options, common); };
-    });
+    add_action(chimes, common, options->stage.name,
+               [options, &common] { return run(*options, common); });
 }
 
 } // namespace softsound

@@ -10,6 +10,7 @@
 //
 // Expected. A burst of sound at each snap, two in a period; the middle changes sides as often.
 
+#include "scenes/moved_mesh.h"
 #include "softsound/demo.h"
 #include "softsound/exhibit.h"
 
@@ -35,27 +36,12 @@ std::shared_ptr<Clamps> clamped;
 ode::soft::MeshHandle bowed() {
     const ode::soft::MeshHandle flat(
         scenes::made(dSoftMeshCreateBar(kLength, kWidth, kThickness, 20, 8, 1)));
-    const dReal* x = nullptr;
-    const int nodes = dSoftMeshGetNodes(flat, &x);
-    const int* element = nullptr;
-    const int elements = dSoftMeshGetElements(flat, &element);
-    std::vector<double> place(x, x + 3 * static_cast<std::ptrdiff_t>(nodes));
-    for (std::size_t i = 0; i < place.size(); i += 3)
-        place[i + 2] += kBow * std::sin(std::numbers::pi * place[i] / kLength);
-    return ode::soft::MeshHandle(
-        scenes::made(dSoftMeshCreate(place.data(), nodes, element, elements)));
+    return scenes::moved(
+        flat, [](double* x) { x[2] += kBow * std::sin(std::numbers::pi * x[0] / kLength); });
 }
 
 Shown build(scenes::World& world, const Exhibit& e) {
-    Shown shown;
-    shown.material = "plastic";
-    dSoftSolid solid = dSoftSolidDefault();
-    if (!dSoftSolidPreset(shown.material.c_str(), &solid))
-        throw scenes::Refused("material");
-    const ode::soft::MeshHandle mesh = bowed();
-    shown.elements = dSoftMeshGetElements(mesh, nullptr);
-    shown.body = scenes::made(dSoftBodyCreate(world.soft(), mesh, &solid));
-    shape(shown.body, e);
+    Shown shown = show(world, e, bowed(), preset("plastic"), "plastic");
     clamped = std::make_shared<Clamps>();
     clamped->sheet = shown.body;
     clamped->step = e.stage.step;
@@ -117,17 +103,11 @@ void judge(nlohmann::ordered_json& results, const Performance& p, const Shown&) 
 } // namespace
 
 void add_demo_crinkle(CLI::App& demo, Common& common) {
-    Exhibit e;
-    e.stage.name = "crinkle";
-    e.stage.seconds = 0.8;
-    e.stage.step = 1.0 / 960;
-    e.stage.ear[0] = 0.1;
-    e.stage.ear[1] = -0.3;
-    e.stage.ear[2] = 0.3;
-    e.title = "bowed sheet of plastic, bent back and forth";
-    e.ring_from = 0;
-    e.tier = "explicit";
-    e.order = 1;
+    const Exhibit e = {.stage = make_stage("crinkle", 0.8, 1.0 / 960, {0.1, -0.3, 0.3}),
+                       .title = "bowed sheet of plastic, bent back and forth",
+                       .tier = "explicit",
+                       .order = 1,
+                       .ring_from = 0};
     add_exhibit(
         demo, common, e, "A bowed sheet snaps between moving clamps",
         "Mathematics: 200 x 80 x 2 mm of plastic, bowed by 8 mm; its ends are nailed to "

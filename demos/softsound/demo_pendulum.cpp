@@ -36,16 +36,11 @@ struct Swing {
 std::shared_ptr<Swing> recorded;
 
 Shown build(scenes::World& world, const Exhibit& e) {
-    Shown shown;
-    shown.material = "aluminium";
-    dSoftSolid solid = dSoftSolidDefault();
-    if (!dSoftSolidPreset(shown.material.c_str(), &solid))
-        throw scenes::Refused("material");
-    const ode::soft::MeshHandle mesh(
-        scenes::made(dSoftMeshCreateBar(kLength, kWidth, kThickness, 13, 1, 1)));
-    shown.elements = dSoftMeshGetElements(mesh, nullptr);
-    shown.body = scenes::made(dSoftBodyCreate(world.soft(), mesh, &solid));
-    shape(shown.body, e);
+    const dSoftSolid solid = preset("aluminium");
+    Shown shown = show(world, e,
+                       ode::soft::MeshHandle(
+                           scenes::made(dSoftMeshCreateBar(kLength, kWidth, kThickness, 13, 1, 1))),
+                       solid, "aluminium");
     const std::vector<int> top =
         nodes_where(shown.body, [](const dReal* p) { return std::abs(p[0]) < 1e-9; });
     const double quarter = std::numbers::pi / 4;

@@ -40,21 +40,13 @@ dBodyID add_ball(scenes::World& world, double mass, double x, double z) {
 
 Shown build_stiff(scenes::World& world, const Exhibit& e) {
     constexpr double kTilt = 0.175; // [rad]
-    Shown shown;
-    shown.material = "steel";
-    dSoftSolid solid = dSoftSolidDefault();
-    if (!dSoftSolidPreset(shown.material.c_str(), &solid))
-        throw scenes::Refused("material");
-    const ode::soft::MeshHandle mesh(
-        scenes::made(dSoftMeshCreatePlate(kSide, kSide, 3e-3, 12, 12, 1)));
-    shown.elements = dSoftMeshGetElements(mesh, nullptr);
-    shown.body = scenes::made(dSoftBodyCreate(world.soft(), mesh, &solid));
-    shape(shown.body, e);
-    const std::vector<int> held =
-        nodes_where(shown.body, [](const dReal* p) { return std::abs(p[1]) > kSide / 2 - 1e-9; });
+    Shown shown = show(
+        world, e,
+        ode::soft::MeshHandle(scenes::made(dSoftMeshCreatePlate(kSide, kSide, 3e-3, 12, 12, 1))),
+        preset("steel"), "steel");
     const dQuaternion tilt = {std::cos(kTilt / 2), 0, std::sin(kTilt / 2), 0}; // +x goes down
     dSoftBodyRotate(shown.body, tilt);
-    dSoftBodyPinNodes(shown.body, held.data(), static_cast<int>(held.size()));
+    hold(shown, [](const dReal* p) { return std::abs(p[1]) > kSide / 2 - 1e-9; });
     dropped = std::make_shared<Ball>();
     dropped->body = add_ball(world, 0.1, -0.05, 0.05 * std::tan(kTilt) + kRadius + 0.08);
     dropped->edge = kSide / 2 * std::cos(kTilt);
@@ -85,25 +77,21 @@ void judge_stiff(nlohmann::ordered_json& results, const Performance& p, const Sh
 
 Shown build_soft(scenes::World& world, const Exhibit& e) {
     constexpr double kThickness = 4e-3; // [m]
-    Shown shown;
-    shown.material = "rubber of 1 MPa";
     dSoftSolid solid = dSoftSolidDefault();
     solid.young = 1e6;
     solid.poisson = 0.45;
     solid.density = 1100;
     solid.alpha = 5;
     solid.beta = 3e-4;
-    const ode::soft::MeshHandle mesh(
-        scenes::made(dSoftMeshCreatePlate(kSide, kSide, kThickness, 16, 16, 1)));
-    shown.elements = dSoftMeshGetElements(mesh, nullptr);
-    shown.body = scenes::made(dSoftBodyCreate(world.soft(), mesh, &solid));
-    shape(shown.body, e);
+    Shown shown = show(world, e,
+                       ode::soft::MeshHandle(
+                           scenes::made(dSoftMeshCreatePlate(kSide, kSide, kThickness, 16, 16, 1))),
+                       solid, "rubber of 1 MPa");
     if (!dSoftBodySetMaterialModel(shown.body, "stable-neo-hookean"))
         throw scenes::Refused("model");
-    const std::vector<int> rim = nodes_where(shown.body, [](const dReal* p) {
+    hold(shown, [](const dReal* p) {
         return std::fmax(std::abs(p[0]), std::abs(p[1])) > kSide / 2 - 1e-9;
     });
-    dSoftBodyPinNodes(shown.body, rim.data(), static_cast<int>(rim.size()));
     dropped = std::make_shared<Ball>();
     dropped->body = add_ball(world, 0.2, 0.02, kThickness / 2 + kRadius + 0.2);
     shown.drive = [ball = dropped](double) {
@@ -122,14 +110,9 @@ void judge_soft(nlohmann::ordered_json& results, const Performance&, const Shown
 } // namespace
 
 void add_demo_sheet(CLI::App& demo, Common& common) {
-    Exhibit stiff;
-    stiff.stage.name = "sheet-stiff";
-    stiff.stage.seconds = 1.5;
-    stiff.stage.step = 1.0 / 480;
-    stiff.stage.ear[1] = -0.5;
-    stiff.stage.ear[2] = 0.5;
-    stiff.title = "ball on a tilted sheet of steel";
-    stiff.choice = {"auto", "explicit", "modal"};
+    const Exhibit stiff = {.stage = make_stage("sheet-stiff", 1.5, 1.0 / 480, {0, -0.5, 0.5}),
+                           .title = "ball on a tilted sheet of steel",
+                           .choice = {"auto", "explicit", "modal"}};
     add_exhibit(
         demo, common, stiff, "A ball bounces on a nearly rigid sheet and rolls off",
         "Mathematics: 300 x 300 x 3 mm of steel, held along two sides, tilted by 10 degrees; "

@@ -65,15 +65,24 @@ void shape(dSoftBodyID body, const Exhibit& exhibit) {
         throw scenes::Refused("the body can't be had in this form");
 }
 
-std::vector<int> nodes_where(dSoftBodyID body, const std::function<bool(const dReal*)>& condition) {
-    const dReal* first = nullptr;
-    int stride = 0;
-    std::vector<int> nodes;
-    const int count = dSoftBodyGetPositions(body, &first, &stride);
-    for (int i = 0; i < count; ++i)
-        if (condition(first + static_cast<std::ptrdiff_t>(i) * stride))
-            nodes.push_back(i);
-    return nodes;
+Shown show(scenes::World& world, const Exhibit& exhibit, ode::soft::MeshHandle mesh,
+           const dSoftSolid& solid, const std::string& material) {
+    Shown shown;
+    shown.material = material;
+    shown.solid = solid;
+    shown.elements = dSoftMeshGetElements(mesh, nullptr);
+    shown.body = scenes::made(dSoftBodyCreate(world.soft(), mesh, &solid));
+    shown.mesh = std::make_shared<ode::soft::MeshHandle>(std::move(mesh));
+    shape(shown.body, exhibit);
+    return shown;
+}
+
+void hold(Shown& shown, const std::function<bool(const dReal*)>& condition) {
+    const int nodes = dSoftMeshGetNodes(*shown.mesh, nullptr);
+    shown.held = nodes_where(shown.body, condition);
+    dSoftBodyPinNodes(shown.body, shown.held.data(), static_cast<int>(shown.held.size()));
+    // Nodes that the order has added come after the mesh's own.
+    std::erase_if(shown.held, [nodes](int node) { return node >= nodes; });
 }
 
 double level_near(std::span<const float> ring, double rate, double frequency, double reach) {
@@ -126,6 +135,8 @@ int run_exhibit(const Exhibit& e, const Build& build, const Judge& judge, const 
         results["theory_partials"] =
             as_json(plots::find_partials(ring, p.rate, shown.predicted, 100));
     }
+    if (e.judges_elements && shown.mesh)
+        results.update(first_mode(shown.body, *shown.mesh, shown.solid, shown.held));
     results.update(softsound::as_json(p));
     results["out"] = e.stage.out;
     if (judge)
@@ -163,14 +174,16 @@ void add_exhibit(CLI::App& demo, Common& common, const Exhibit& exhibit, const s
     command.add_option("--step", own->stage.step, "Of ODE [s]")
         ->check(CLI::Range(1e-6, 0.1))
         ->capture_default_str();
-    add_common(command, common);
-    command.callback([own, &common, build = std::move(build), judge = std::move(judge)] {
-        if (common.json.empty())
-            common.json = own->stage.name + ".json";
-        common.action = [own, &common, build, judge] {
-            return run_exhibit(*own, build, judge, common);
-        };
-    });
+    if (own->cells > 0)
+        command.add_option("--cells", own->cells, "Of the mesh along its side")
+            ->check(CLI::Range(4, 100))
+            ->capture_default_str();
+    command.add_flag("--judge-elements", own->judges_elements,
+                     "Also how far the elements are off in pitch: seconds more");
+    add_action(command, common, own->stage.name,
+               [own, &common, build = std::move(build), judge = std::move(judge)] {
+                   return run_exhibit(*own, build, judge, common);
+               });
 }
 
 } // namespace softsound

@@ -4,8 +4,10 @@
 #include "scenes/world.h"
 #include "softsound/command.h"
 #include "softsound/performance.h"
+#include "softsound/subject.h"
 
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,13 +17,15 @@ namespace softsound {
 
 /// What a user may choose of a demo, and what it starts from.
 struct Exhibit {
-    Stage stage;
-    std::string title;               ///< of the picture
-    std::string tier = "auto";       ///< tier.h
-    int order = 2;                   ///< of the elements
-    double top = 10000;              ///< highest frequency shown [Hz]
-    double ring_from = 0.1;          ///< partials are looked for from here on [s]
-    std::vector<std::string> choice; ///< names of --tier; empty: there is nothing to choose
+    Stage stage = {};
+    std::string title = {};               ///< of the picture
+    std::string tier = "auto";            ///< tier.h
+    int order = 2;                        ///< of the elements
+    double top = 10000;                   ///< highest frequency shown [Hz]
+    double ring_from = 0.1;               ///< partials are looked for from here on [s]
+    int cells = 0;                        ///< of the mesh along its side; 0: nothing to choose
+    bool judges_elements = false;         ///< tells first_mode() as well: seconds for a large mesh
+    std::vector<std::string> choice = {}; ///< names of --tier; empty: there is nothing to choose
 };
 
 /// A scene as its builder leaves it.
@@ -29,6 +33,9 @@ struct Shown {
     dSoftBodyID body = nullptr;
     int elements = 0;
     std::string material;
+    std::shared_ptr<ode::soft::MeshHandle> mesh; ///< null: nobody asks for first_mode()
+    dSoftSolid solid = {};
+    std::vector<int> held;         ///< pinned nodes
     std::vector<double> predicted; ///< partials, by whatever theory the demo names [Hz]
     std::string theory;            ///< its name
     /// Called before every step of ODE's. @param time  of the world [s]
@@ -52,11 +59,14 @@ int run_exhibit(const Exhibit& exhibit, const Build& build, const Judge& judge,
 /// Sets order and tier, then holds or frees nothing. @throws scenes::Refused
 void shape(dSoftBodyID body, const Exhibit& exhibit);
 
+/// A body of this mesh in the form that the exhibit asks for. @throws scenes::Refused
+Shown show(scenes::World& world, const Exhibit& exhibit, ode::soft::MeshHandle mesh,
+           const dSoftSolid& solid, const std::string& material);
+/// Pins the nodes that a condition holds for, by their places now.
+void hold(Shown& shown, const std::function<bool(const dReal*)>& condition);
+
 /// Partials as the results list them.
 nlohmann::ordered_json as_json(const std::vector<plots::Partial>& partials);
-
-/// Nodes of a body that a condition holds for, by their places now.
-std::vector<int> nodes_where(dSoftBodyID body, const std::function<bool(const dReal*)>& condition);
 
 /// Level of the strongest line within `reach` [cents] of a frequency [dB re 1 Pa].
 double level_near(std::span<const float> ring, double rate, double frequency, double reach = 30);

@@ -2,6 +2,7 @@
 
 #include "softsound/progress.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -37,6 +38,15 @@ void complain_of(dSoundSinkID sink) {
 }
 
 } // namespace
+
+Stage make_stage(std::string name, double seconds, double step, std::array<double, 3> ear) {
+    Stage stage;
+    stage.name = std::move(name);
+    stage.seconds = seconds;
+    stage.step = step;
+    std::copy(ear.begin(), ear.end(), stage.ear);
+    return stage;
+}
 
 void add_stage(CLI::App& command, Stage& stage) {
     stage.out = stage.name + ".wav";

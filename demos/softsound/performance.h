@@ -3,6 +3,7 @@
 #include "scenes/world.h"
 #include "softsound/command.h"
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <ode_sound/sound.hpp>
@@ -25,6 +26,9 @@ struct Stage {
     double full_scale = 20;      ///< that becomes 1.0 in the file [Pa]
     dVector3 ear = {0, -1, 1.6}; ///< midpoint of the ears [m]; they look along +y, +z is up
 };
+
+/// What demos differ in: @param step  of ODE [s]. @param ear  midpoint [m]
+Stage make_stage(std::string name, double seconds, double step, std::array<double, 3> ear);
 
 /// Adds --out, --plot, --live, --seconds, --radiation, --sampling, --full-scale.
 void add_stage(CLI::App& command, Stage& stage);

@@ -141,13 +141,8 @@ void add_strike(CLI::App& app, Common& common) {
     auto options = std::make_shared<Options>();
     Options& o = *options;
     Exhibit& e = o.exhibit;
-    e.stage.name = "strike";
-    e.stage.seconds = 2;
-    e.stage.step = 1.0 / 480;
-    e.stage.ear[1] = -1;
-    e.stage.ear[2] = 0.5;
-    e.title = "struck";
-    e.top = 20000;
+    e = {
+        .stage = make_stage("strike", 2, 1.0 / 480, {0, -1, 0.5}), .title = "struck", .top = 20000};
     CLI::App& strike =
         *app.add_subcommand("strike", "Strikes the body of a mesh and lets it ring, floating");
     strike.add_option("mesh", o.mesh, "Gmsh .msh, TetGen .node/.ele, legacy .vtk, Medit .mesh")

@@ -33,21 +33,27 @@ if(what STREQUAL "bar")
     # What is heard is what the mesh's own modes say.
     expect_between(-1 1 partials 0 cents)
 elseif(what STREQUAL "plate")
-    # Leissa's plate; one quadratic element through the thickness is sharp.
-    demo(plate-center --seconds 0.7)
-    expect_between(0 40 theory_partials 0 cents)
+    # Leissa's plate, on fewer cells than the demo's own for the time's sake: their modes against Leissa are
+    # in app_modes; here that the modes are heard, and which.
+    demo(plate-center --seconds 0.7 --cells 16)
+    expect_between(0 60 theory_partials 0 cents)
+    expect_between(-1 1 partials 0 cents)
     expect_between(30 300 figures at_rest_below_moving_db)
-    demo(plate-off --seconds 0.7)
-    expect_between(0 40 theory_partials 0 cents)
-    expect_between(0 50 theory_partials 1 cents)
+    demo(plate-off --seconds 0.7 --cells 16)
+    expect_between(0 60 theory_partials 0 cents)
+    expect_between(-1 1 partials 0 cents)
+    expect_between(-1 1 partials 1 cents)
     expect_between(-20 20 figures at_rest_below_moving_db)
 elseif(what STREQUAL "vibraphone")
     demo(vibraphone --seconds 1)
     expect_between(3.9 4.1 figures tuning 1)
     expect_between(9.8 10.3 figures tuning 2)
     expect_between(-17 17 theory_partials 0 cents)
-    expect_between(12 150 figures supports_hz)
-    expect_between(-40 40 figures supports_below_first_mode_db)
+    # sqrt(g / sag) / 2 pi, the bar swinging on what bears it; half the window's 1.5 Hz is 3 %.
+    expect_between(0.97 1.03 figures supports_over_expected)
+    # As loud as a row of dipoles of the bar's known motion: 1 dB for the air that a strip carries at its
+    # ends, 0.5 for the ear's distance in the body's own table.
+    expect_between(-1.5 1.5 figures supports_level_off_db)
     expect_between(500 1200 figures meshes_differ_linear_cents)
     expect_between(0 40 figures meshes_differ_quadratic_cents)
 elseif(what STREQUAL "pendulum")
