@@ -11,53 +11,72 @@ inline double cpu_seconds() noexcept {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+/// Time that passes [s]; no system call.
+inline double wall_seconds() noexcept {
+    std::timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 /// Sums up the cost of many short jobs from a few of them.
+///
+/// Short jobs are timed by the wall's clock: a system call before a job of a microsecond makes it
+/// half as long again. One that takes longer than kShort may have been interrupted: it is not
+/// counted, and the next is timed by this thread's own clock.
 class SampledCost {
 public:
     using Clock = double() noexcept;
-    explicit SampledCost(Clock* clock = cpu_seconds) noexcept : now_(clock) {}
+    explicit SampledCost(Clock* cpu = cpu_seconds, Clock* wall = wall_seconds) noexcept
+        : cpu_(cpu), wall_(wall) {}
 
     /// Measures one job in kEvery. The number is coprime with the 4 and 16 or so substeps after
     /// which the sound path does its larger work, so that each kind is met in proportion.
     template <class Job>
     void run(Job&& job) {
-        if (++count_ % kEvery != 0) {
+        if (++count_ % kEvery != 0 && !again_) {
             job();
             return;
         }
+        Clock* const now = long_ ? cpu_ : wall_;
+        const double counted = seconds_;
         once_ = 0.0;
-        const double begin = now_();
+        const double begin = now();
         job();
-        const double end = now_();
-        // Less the clock's own time.
-        seconds_ += kEvery * (end - begin - once_ - (now_() - end));
+        const double end = now();
+        const double spent = end - begin - once_ - (now() - end); // less the clock's own time
+        again_ = !long_ && end - begin > kShort && counted == seconds_;
+        if (!again_)
+            seconds_ += kEvery * spent;
+        long_ = end - begin > kShort;
     }
 
     /// Measures what will not come again, in full, within a job or not.
     template <class Job>
     auto run_once(Job&& job) {
-        const double begin = now_();
+        const double begin = cpu_(), passing = wall_();
         auto result = job();
-        const double spent = now_() - begin;
-        seconds_ += spent;
-        once_ += spent;
+        once_ += long_ ? cpu_() - begin : wall_() - passing; // by the job's clock
+        seconds_ += cpu_() - begin;
         return result;
     }
 
     /// Measures a long job in full.
     template <class Job>
     void run_whole(Job&& job) {
-        const double begin = now_();
+        const double begin = cpu_();
         job();
-        seconds_ += now_() - begin;
+        seconds_ += cpu_() - begin;
     }
 
     double seconds() const noexcept { return seconds_ > 0.0 ? seconds_ : 0.0; }
 
 private:
     static constexpr unsigned kEvery = 31;
-    Clock* now_; ///< [s]
+    static constexpr double kShort = 5e-5; ///< [s]
+    Clock *cpu_, *wall_;
     unsigned count_ = 0;
+    bool long_ = false;  ///< jobs, as the last one measured was
+    bool again_ = false; ///< the last one may have been interrupted
     double seconds_ = 0.0;
     double once_ = 0.0; ///< of the job under way, counted already
 };
