@@ -22,7 +22,7 @@ inline double wall_seconds() noexcept {
 ///
 /// Short jobs are timed by the wall's clock: a system call before a job of a microsecond makes it
 /// half as long again. One that takes longer than kShort may have been interrupted: it is not
-/// counted, and the next is timed by this thread's own clock.
+/// counted, and the next kCareful are timed by this thread's own clock, long ones among them.
 class SampledCost {
 public:
     using Clock = double() noexcept;
@@ -37,17 +37,16 @@ public:
             job();
             return;
         }
-        Clock* const now = long_ ? cpu_ : wall_;
-        const double counted = seconds_;
+        const bool careful = careful_ > 0;
+        Clock* const now = careful ? cpu_ : wall_;
         once_ = 0.0;
         const double begin = now();
         job();
         const double end = now();
-        const double spent = end - begin - once_ - (now() - end); // less the clock's own time
-        again_ = !long_ && end - begin > kShort && counted == seconds_;
+        careful_ = end - begin > kShort ? kCareful : careful_ - careful;
+        again_ = !careful && end - begin > kShort;
         if (!again_)
-            seconds_ += kEvery * spent;
-        long_ = end - begin > kShort;
+            seconds_ += kEvery * (end - begin - once_ - (now() - end)); // less the clock's own time
     }
 
     /// Measures what will not come again, in full, within a job or not.
@@ -55,7 +54,7 @@ public:
     auto run_once(Job&& job) {
         const double begin = cpu_(), passing = wall_();
         auto result = job();
-        once_ += long_ ? cpu_() - begin : wall_() - passing; // by the job's clock
+        once_ += careful_ > 0 ? cpu_() - begin : wall_() - passing; // by the job's clock
         seconds_ += cpu_() - begin;
         return result;
     }
@@ -72,10 +71,11 @@ public:
 
 private:
     static constexpr unsigned kEvery = 31;
-    static constexpr double kShort = 5e-5; ///< [s]
+    static constexpr double kShort = 1e-4; ///< [s]
+    static constexpr int kCareful = 64;
     Clock *cpu_, *wall_;
     unsigned count_ = 0;
-    bool long_ = false;  ///< jobs, as the last one measured was
+    int careful_ = 0;
     bool again_ = false; ///< the last one may have been interrupted
     double seconds_ = 0.0;
     double once_ = 0.0; ///< of the job under way, counted already

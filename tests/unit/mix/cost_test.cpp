@@ -48,5 +48,19 @@ TEST(SampledCost, DoesNotCountInterruptions) {
     EXPECT_NEAR(cost.seconds() / (kJobs * 1e-6), 1.0, 0.01);
 }
 
+// Every sixteenth job is a long one: it is met in proportion.
+TEST(SampledCost, CountsRareLongJobs) {
+    SampledCost cost(read_cpu, read_wall);
+    constexpr int kJobs = 31 * 2000;
+    double all = 0.0;
+    for (int job = 1; job <= kJobs; ++job)
+        cost.run([&] {
+            const double each = job % 16 == 0 ? 3e-4 : 1e-6;
+            work(each);
+            all += each;
+        });
+    EXPECT_NEAR(cost.seconds() / all, 1.0, 0.05);
+}
+
 } // namespace
 } // namespace ode::sound
