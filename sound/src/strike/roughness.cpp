@@ -59,15 +59,19 @@ void Roughness::add_up(std::span<const double> height) {
     double mean = 0.0;
     for (const double h : height)
         mean += h / static_cast<double>(height.size());
-    sum_.assign(1, 0.0);
+    height_.clear();
     for (const double h : height)
-        sum_.push_back(sum_.back() + (h - mean));
+        height_.push_back(h - mean);
+    height_.push_back(height_.front());
+    sum_.assign(1, 0.0);
+    for (std::size_t k = 0; k + 1 < height_.size(); ++k)
+        sum_.push_back(sum_.back() + 0.5 * (height_[k] + height_[k + 1]));
 }
 
-/// Over the spacing: heights are steps half a spacing to either side.
+/// Over the spacing: straight from height to height.
 double Roughness::integral(double place) const noexcept {
-    const double cell = place * per_spacing_ + 0.5;
-    const double whole = std::floor(cell);
+    const double cell = place * per_spacing_;
+    const double whole = std::floor(cell), t = cell - whole;
     // The sum over a period is nothing. Places are within a few periods.
     auto i = static_cast<std::int64_t>(whole);
     const auto cells = static_cast<std::int64_t>(sum_.size() - 1);
@@ -75,8 +79,8 @@ double Roughness::integral(double place) const noexcept {
         i += cells;
     while (i >= cells)
         i -= cells;
-    const double* at = sum_.data() + i;
-    return at[0] + (cell - whole) * (at[1] - at[0]);
+    const double* const h = height_.data() + i;
+    return sum_[static_cast<std::size_t>(i)] + t * (h[0] + 0.5 * t * (h[1] - h[0]));
 }
 
 double Roughness::mean(double place, double width) const noexcept {

@@ -33,7 +33,8 @@ private:
     double integral(double place) const noexcept;
 
     double spacing_, per_spacing_ = 0.0, period_ = 0.0;
-    std::vector<double> sum_; ///< of the heights up to each [m]
+    std::vector<double> height_; ///< the first once more behind the last [m]
+    std::vector<double> sum_;    ///< of the heights up to each [m]
 };
 
 } // namespace ode::sound
