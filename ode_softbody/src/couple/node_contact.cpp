@@ -23,6 +23,7 @@ NodeContact::NodeContact(const SurfaceNodes& nodes, dGeomID geom)
       entered_(nodes.node.size(), Vec3::Zero()), overlap_(nodes.node.size()),
       book_(nodes.node.size()), samples_(nodes), poles_(nodes) {
     candidate_.reserve(nodes.node.size());
+    wide_.reserve(nodes.node.size());
     touch_.reserve(nodes.node.size());
 }
 
@@ -89,6 +90,7 @@ void NodeContact::begin_step(const RigidShape& given, const ContactLaw& law,
         damping_[i] = std::fmin(stiffness_[i] * law.damping, share * kDampingShare * most / dt);
     }
     look_again_in_ = 0;
+    look_wide_in_ = 0;
     quiet_in_ = 0;
 }
 
@@ -156,6 +158,7 @@ unsigned long NodeContact::find(const NodeArray& position, const NodeArray& velo
     if (is_look_due())
         tests = look(position, velocity, rigid);
     look_again_in_ -= dt;
+    look_wide_in_ -= dt;
     quiet_in_ -= dt;
     touch_.clear();
     bearing_ = 0;
@@ -174,17 +177,23 @@ unsigned long NodeContact::find(const NodeArray& position, const NodeArray& velo
 }
 
 unsigned long NodeContact::look(const NodeArray& position, const NodeArray& velocity,
-                                const RigidShadow& rigid) noexcept {
+                                const RigidShadow& rigid, RoughPlaces* rough) noexcept {
     quiet_in_ = 0;
-    if (shape_.kind == ShapeKind::probed)
+    if (shape_.kind == ShapeKind::probed) {
+        for (std::size_t i = 0; rough && i < nodes_.node.size(); ++i)
+            rough->place(nodes_.node[i]);
         probe_candidates(position, velocity, rigid.motion());
-    else
+    } else if (rough) {
+        find_candidates(position, velocity, rigid.motion(), *rough);
+    } else {
         find_candidates(position, velocity, rigid.motion());
+    }
     return candidate_.size() + nodes_.node.size();
 }
 
 void NodeContact::pass(double dt) noexcept {
     look_again_in_ -= dt;
+    look_wide_in_ -= dt;
     quiet_in_ -= dt;
     touch_.clear();
     at_once_ = false;

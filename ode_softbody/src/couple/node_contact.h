@@ -5,6 +5,7 @@
 #include "couple/node_forces.h"
 #include "couple/pole_contact.h"
 #include "couple/rigid_shadow.h"
+#include "couple/rough_places.h"
 #include "couple/sample_contact.h"
 #include "couple/surface_nodes.h"
 #include "couple/surface_probe.h"
@@ -64,8 +65,9 @@ public:
                        double dt) noexcept;
     /// What find() does first, on its own: a time for which nothing can touch may come of it.
     bool is_look_due() const noexcept { return look_again_in_ <= 0; }
+    /// @param rough  null: nodes are where `position` says.
     unsigned long look(const NodeArray& position, const NodeArray& velocity,
-                       const RigidShadow& rigid) noexcept;
+                       const RigidShadow& rigid, RoughPlaces* rough = nullptr) noexcept;
     void look_soon() noexcept { look_again_in_ = 0; }
     /// How fast candidates come at the shape, at the last looks [m/s].
     double closing_speed() const noexcept { return closing_; }
@@ -116,6 +118,14 @@ private:
 
     void find_candidates(const NodeArray& position, const NodeArray& velocity,
                          const RigidMotion& motion) noexcept;
+    /// The same of a body whose nodes are brought up to date here.
+    void find_candidates(const NodeArray& position, const NodeArray& velocity,
+                         const RigidMotion& motion, RoughPlaces& rough) noexcept;
+    /// Which samples and poles, once the candidates are known.
+    /// @param near  whether any node is within `reach` of the shape or two edges more.
+    void find_points(const NodeArray& position, const Pose& pose, bool near, double reach) noexcept;
+    /// How fast the shape may move against the nodes by its turning [m/s].
+    double sweeping(const RigidMotion& motion) const noexcept;
     /// The same for probed shapes: planes_ run parallel to candidate_.
     void probe_candidates(const NodeArray& position, const NodeArray& velocity,
                           const RigidMotion& motion) noexcept;
@@ -128,7 +138,7 @@ private:
     bool has_pole(std::size_t node) const noexcept {
         return !recess_.empty() && shape_.kind != ShapeKind::sphere && nodes_.shape.bulges(node);
     }
-    static double time_to_cross(double gap, double fastest) noexcept; ///< at least [s]
+    static double time_to_cross(double gap, double haste) noexcept; ///< at least [s]
 
     /// A node inside the shape.
     struct Touch {
@@ -192,10 +202,11 @@ private:
     std::vector<Planes> planes_;
     std::span<const double> inverse_mass_; ///< of every mesh node [1/kg]; borrowed for the step
     double look_again_in_ = 0;             ///< [s]
-    double closing_ = 0;                   ///< [m/s]
-    double fastest_ = std::numeric_limits<double>::infinity(); ///< at the last look [m/s]
-    double horizon_ = 0;  ///< candidates may get in within it; 0: are within kReach [s]
-    double quiet_in_ = 0; ///< nothing can touch for so long [s]
+    std::vector<int> wide_;   ///< surface nodes that looks go over, where they may leave out some
+    double look_wide_in_ = 0; ///< all are gone over [s]
+    double closing_ = 0;      ///< [m/s]
+    double horizon_ = 0;      ///< candidates may get in within it; 0: are within kReach [s]
+    double quiet_in_ = 0;     ///< nothing can touch for so long [s]
     std::size_t bearing_ = 0;
     double softening_ = 1; ///< in the last substep
     struct Memory {

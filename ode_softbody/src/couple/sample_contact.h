@@ -44,6 +44,7 @@ public:
 
     bool is_touching() const noexcept { return !touch_.empty(); }
     double reach() const noexcept; ///< of the farthest sample from the shape's origin [m]
+    bool exist() const noexcept { return !sample_.empty(); }
     bool is_near() const noexcept { return !near_.empty(); }
     void collect_nodes(std::vector<int>& out) const; ///< as NodeContact's
     void forget() noexcept;

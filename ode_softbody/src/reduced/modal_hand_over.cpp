@@ -108,12 +108,11 @@ void ModalMotion::give(NodeState& nodes) const noexcept {
         nodes.velocity[n] += velocity + spin.cross(nodes.position[n] - state_.center);
 }
 
-void ModalMotion::place(std::span<const int> nodes, std::size_t columns,
-                        NodeState& out) const noexcept {
+void ModalMotion::place(std::span<const int> nodes, NodeState& out) const noexcept {
     const Mat3 turn = state_.turn.toRotationMatrix();
     const Vec3 spin = this->spin();
-    const Spread moved(*basis_, std::span(state_.amplitude).first(columns), single_[0]);
-    const Spread rate(*basis_, std::span(state_.rate).first(columns), single_[1]);
+    const Spread moved(*basis_, awake(state_.amplitude), single_[0]);
+    const Spread rate(*basis_, awake(state_.rate), single_[1]);
     for (const int node : nodes) {
         const auto n = static_cast<std::size_t>(node);
         const Vec3 arm = turn * (basis_->rest[n] + moved.at(n));

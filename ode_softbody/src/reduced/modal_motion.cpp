@@ -161,15 +161,20 @@ void ModalMotion::fly(double dt) noexcept {
     }
 }
 
-void ModalMotion::stretch_by_spin(const Vec3& w) noexcept {
+void ModalMotion::settle(std::size_t columns, const Vec3& w) noexcept {
     const double* slope = basis_->inertia_slope.data();
     const std::size_t n = basis_->columns;
-    const std::size_t heard = basis_->audible_columns; // above, bodies hardly stretch
+    if (loaded_)
+        std::copy_n(load_.begin(), columns, settled_.begin());
+    else
+        std::fill_n(settled_.begin(), columns, 0.0);
     const double xx = w.x() * w.x() / 2, yy = w.y() * w.y() / 2, zz = w.z() * w.z() / 2;
     const double xy = w.x() * w.y(), xz = w.x() * w.z(), yz = w.y() * w.z();
-    for (std::size_t k = 0; k < heard; ++k)
+    for (std::size_t k = 0; k < columns; ++k)
         settled_[k] += xx * slope[k] + yy * slope[n + k] + zz * slope[2 * n + k] +
                        xy * slope[3 * n + k] + xz * slope[4 * n + k] + yz * slope[5 * n + k];
+    for (std::size_t k = 0; k < columns; ++k)
+        settled_[k] /= basis_->omega[k] * basis_->omega[k];
 }
 
 int ModalMotion::pieces(const Vec3& spin, double dt) const noexcept {
@@ -217,16 +222,11 @@ void ModalMotion::advance(double dt) noexcept {
     const bool spins = spin.squaredNorm() > 0;
     if (!basis_->held)
         fly(dt);
-    const bool shifted = spins || loaded_;
-    if (shifted) {
-        std::copy(load_.begin(), load_.end(), settled_.begin());
-        if (spins)
-            stretch_by_spin(spin);
-        for (std::size_t k = 0; k < awake_; ++k) {
-            settled_[k] /= basis_->omega[k] * basis_->omega[k];
-            state_.amplitude[k] -= settled_[k];
-        }
-    }
+    // By their spin, bodies hardly stretch in modes above hearing.
+    const std::size_t shifted = loaded_ ? awake_ : spins ? basis_->audible_columns : 0;
+    settle(shifted, spin);
+    for (std::size_t k = 0; k < shifted; ++k)
+        state_.amplitude[k] -= settled_[k];
     const int parts = spins ? pieces(spin, dt) : 1;
     const double h = dt / parts;
     for (int i = 0; i < parts; ++i) {
@@ -237,7 +237,7 @@ void ModalMotion::advance(double dt) noexcept {
         if (spins)
             mix(spin, h / 2);
     }
-    for (std::size_t k = 0; shifted && k < awake_; ++k)
+    for (std::size_t k = 0; k < shifted; ++k)
         state_.amplitude[k] += settled_[k];
 }
 

@@ -47,13 +47,7 @@ public:
     /// Puts all nodes where they are, with the velocities that have this momentum exactly.
     void give(NodeState& nodes) const noexcept;
     /// Some nodes, with the velocities that they have now.
-    void place(std::span<const int> nodes, NodeState& out) const noexcept {
-        place(nodes, awake_, out);
-    }
-    /// The same by what is heard alone: what lies above moves nodes by micrometres.
-    void place_roughly(std::span<const int> nodes, NodeState& out) const noexcept {
-        place(nodes, basis_->audible_columns, out);
-    }
+    void place(std::span<const int> nodes, NodeState& out) const noexcept;
 
     /// Steady loads of the time to come. @param forces  on nodes, or null [N].
     void set_load(const Vec3& gravity, const NodeArray* forces) noexcept;
@@ -87,11 +81,11 @@ public:
     double inverse_mass(std::size_t node, const Vec3& direction) const noexcept;
 
 private:
-    void place(std::span<const int> nodes, std::size_t columns, NodeState& out) const noexcept;
     void fit_frame(const NodeArray& position, std::span<const int> held) noexcept;
     void turn_by(const Vec3& spin, double dt) noexcept;
-    void fly(double dt) noexcept;                    ///< the frame
-    void stretch_by_spin(const Vec3& spin) noexcept; ///< into settled_
+    void fly(double dt) noexcept; ///< the frame
+    /// Into settled_: where the first so many modes come to rest.
+    void settle(std::size_t columns, const Vec3& spin) noexcept;
     void mix(const Vec3& spin, double dt) noexcept;
     int pieces(const Vec3& spin, double dt) const noexcept;
     void rest_what_died() noexcept;

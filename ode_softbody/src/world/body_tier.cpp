@@ -237,8 +237,9 @@ bool Body::bears_in_modes(double blow, ModalTier& modes) noexcept {
 double Body::blow_ahead(double steps) noexcept {
     if (rigid_pair_.empty())
         return 0;
-    if (modes_)
-        modes_->place_surface_roughly();
+    RoughPlaces* const rough = modes_ ? &modes_->rough_places() : nullptr;
+    for (std::size_t i = 0; rough && i < contact_nodes_.node.size(); ++i)
+        rough->place(contact_nodes_.node[i]);
     const double ahead = steps * world_.last_step();
     double fastest = 0;
     for (const RigidPair& pair : rigid_pair_) {

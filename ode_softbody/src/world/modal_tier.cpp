@@ -8,7 +8,7 @@ namespace ode::soft {
 
 ModalTier::ModalTier(std::shared_ptr<const ModalBasis> basis, const SurfaceNodes& surface,
                      std::span<const Vec3> normal, NodeState& nodes)
-    : motion_(std::move(basis)), view_(motion_, nodes), surface_(surface), nodes_(nodes),
+    : motion_(std::move(basis)), view_(motion_, nodes), rough_(motion_, nodes), surface_(surface), nodes_(nodes),
       inverse_mass_(motion_.basis().nodes(), 0.0), rest_box_(Aabb::empty()) {
     for (std::size_t i = 0; i < surface.node.size(); ++i) {
         const auto n = static_cast<std::size_t>(surface.node[i]);
@@ -28,8 +28,6 @@ void ModalTier::refresh() noexcept {
 void ModalTier::place_all() noexcept { motion_.place(all_, nodes_); }
 
 void ModalTier::place_surface() noexcept { motion_.place(surface_.node, nodes_); }
-
-void ModalTier::place_surface_roughly() noexcept { motion_.place_roughly(surface_.node, nodes_); }
 
 void ModalTier::place_near(double dt) noexcept {
     if (near_stale_)

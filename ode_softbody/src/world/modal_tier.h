@@ -3,6 +3,7 @@
 #include "collide/aabb.h"
 #include "couple/surface_nodes.h"
 #include "reduced/contact_view.h"
+#include "reduced/frame_places.h"
 
 #include <memory>
 #include <span>
@@ -26,7 +27,11 @@ public:
     void refresh() noexcept;                       ///< all of them, with all momentum
     void place_all() noexcept; ///< as observers see them: without the last digits of momentum
     void place_surface() noexcept;
-    void place_surface_roughly() noexcept; ///< to see what is near
+    /// To see what is near; good until the motion goes on.
+    RoughPlaces& rough_places() noexcept {
+        rough_.begin();
+        return rough_;
+    }
     /// Those that contact looks at, before a substep of dt [s], unless they are up to date.
     void place_near(double dt) noexcept;
     JointInertia& joint() noexcept { return view_; } ///< good after place_near()
@@ -61,6 +66,7 @@ public:
 private:
     ModalMotion motion_;
     ContactView view_;
+    FramePlaces rough_;
     const SurfaceNodes& surface_;
     NodeState& nodes_;
     std::vector<int> near_;

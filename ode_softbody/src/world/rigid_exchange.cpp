@@ -122,10 +122,9 @@ void RigidExchange::look_ahead(bool first) noexcept {
         }
         if (!contact.law->is_look_due())
             return;
-        modes.place_surface_roughly();
         contact.law->set_horizon(kHorizon);
         contact.law->look(contact.body->state_.position, contact.body->state_.velocity,
-                          shadow_[contact.shadow]);
+                          shadow_[contact.shadow], &modes.rough_places());
         looked = true;
     });
     if (looked) {
