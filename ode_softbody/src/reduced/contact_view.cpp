@@ -60,7 +60,7 @@ void ContactView::begin(std::span<const int> near, double dt) noexcept {
 }
 
 Vec3 ContactView::ahead(const CarriedPoint& point) const noexcept {
-    const Spread gain(motion_.basis(), gain_);
+    const Spread gain(motion_.basis(), band(gain_));
     Vec3 out = Vec3::Zero(), local = Vec3::Zero(), at = Vec3::Zero();
     for (std::size_t i = 0; i < 3; ++i) {
         const double w = point.weight[static_cast<int>(i)];
@@ -80,7 +80,7 @@ Vec3 ContactView::ahead(const CarriedPoint& point) const noexcept {
 
 double ContactView::compliance(const CarriedPoint& point, const Vec3& direction) const noexcept {
     const ModalBasis& b = motion_.basis();
-    const double modal = square(b, point, turn_.transpose() * direction, yield_) / dt_;
+    const double modal = square(b, point, turn_.transpose() * direction, band(yield_)) / dt_;
     if (b.held)
         return modal;
     Vec3 at = Vec3::Zero();
@@ -95,7 +95,8 @@ void ContactView::push(std::size_t node, const Vec3& force) noexcept {
     pushed_ = true;
     const ModalBasis& b = motion_.basis();
     // The mean rate over dt of a push of f dt is drift / dt times f dt.
-    project(b, node, turn_.transpose() * force, yield_, gain_);
+    project(b, node, turn_.transpose() * force, band(yield_),
+            std::span(gain_).first(motion_.band()));
     if (b.held)
         return;
     impulse_ += dt_ * force;

@@ -29,6 +29,10 @@ public:
     void push(std::size_t node, const Vec3& force) noexcept override;
 
 private:
+    std::span<const float> band(const AlignedVector<float>& q) const noexcept {
+        return std::span(q).first(motion_.band());
+    }
+
     ModalMotion& motion_;
     NodeState& nodes_;
     double dt_ = 0;                     ///< of this substep [s]

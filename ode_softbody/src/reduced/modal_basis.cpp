@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace ode::soft {
 namespace {
@@ -72,17 +71,20 @@ void find_gyration(const ModalModel& modes, ModalBasis& out) {
 
 ModalBasis make_basis(const ModalModel& modes, std::span<const Vec3> position,
                       std::span<const double> mass, std::span<const double> decay,
-                      ResidualFlexibility residual, double audible_limit, bool held) {
+                      double audible_limit, double gentle_limit, bool held) {
     ModalBasis out;
     out.modes = modes.mode_count();
     out.columns = whole_lanes(out.modes);
-    out.audible = static_cast<std::size_t>(
-        std::upper_bound(modes.frequency.begin(), modes.frequency.end(), audible_limit) -
-        modes.frequency.begin());
+    const auto up_to = [&](double limit) {
+        return static_cast<std::size_t>(
+            std::upper_bound(modes.frequency.begin(), modes.frequency.end(), limit) -
+            modes.frequency.begin());
+    };
+    out.audible = up_to(audible_limit);
     out.audible_columns = whole_lanes(out.audible);
+    out.gentle_columns = whole_lanes(up_to(gentle_limit));
     out.rest.assign(position.begin(), position.end());
     out.mass.assign(mass.begin(), mass.end());
-    out.residual = std::move(residual);
     out.held = held;
     Vec3 centre = Vec3::Zero();
     for (std::size_t n = 0; n < out.nodes(); ++n) {

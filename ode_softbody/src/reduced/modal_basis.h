@@ -33,6 +33,7 @@ struct ModalBasis {
     std::size_t columns = 0; ///< with
     std::size_t audible = 0; ///< of the modes, the first: what lies above is there for contact
     std::size_t audible_columns = 0; ///< whole lanes that hold these
+    std::size_t gentle_columns = 0;  ///< as many as gentle contact moves, whole lanes
     std::vector<Vec3> rest;          ///< of each node [m]
     std::vector<double> mass;        ///< of each node [kg]
     double radius = 0;               ///< of the farthest node from the origin [m]
@@ -51,8 +52,9 @@ struct ModalBasis {
     AlignedVector<double> inertia_slope;
     /// Sum of m phi: three rows of `columns` [kg^1/2]; zero of a body that nothing holds.
     AlignedVector<double> inertia_share;
-    ResidualFlexibility residual; ///< 0 inside and where held
-    bool held = false;            ///< some nodes are: there is no rigid motion
+    ResidualFlexibility residual;        ///< 0 inside and where held
+    ResidualFlexibility gentle_residual; ///< beyond the gentle columns
+    bool held = false;                   ///< some nodes are: there is no rigid motion
 
     std::size_t nodes() const noexcept { return rest.size(); }
     const float* row(std::size_t node, std::size_t axis) const noexcept {
@@ -70,8 +72,10 @@ struct PushedNodes {
 /// @param mass      lumped, of each node: what `modes` were found with [kg]
 /// @param decay     of each mode [1/s]
 /// @param audible_limit  frequency up to which they are heard [Hz]
+/// @param gentle_limit   frequency up to which gentle contact moves them [Hz]
+/// The residual flexibilities are left empty.
 ModalBasis make_basis(const ModalModel& modes, std::span<const Vec3> position,
                       std::span<const double> mass, std::span<const double> decay,
-                      ResidualFlexibility residual, double audible_limit, bool held);
+                      double audible_limit, double gentle_limit, bool held);
 
 } // namespace ode::soft

@@ -28,7 +28,8 @@ std::pair<double, double> cosine_and_sine(double x) noexcept {
 
 ModalMotion::ModalMotion(std::shared_ptr<const ModalBasis> basis)
     : basis_(std::move(basis)), oscillators_(basis_->omega, basis_->decay), awake_(basis_->columns),
-      load_(basis_->columns, 0.0), impulse_(basis_->columns, 0.0), settled_(basis_->columns, 0.0) {
+      band_(basis_->columns), load_(basis_->columns, 0.0), impulse_(basis_->columns, 0.0),
+      settled_(basis_->columns, 0.0) {
     for (AlignedVector<float>& q : single_)
         q.assign(basis_->columns, 0.0f);
     state_.amplitude.assign(basis_->columns, 0.0);
@@ -99,24 +100,27 @@ const ModalState& ModalMotion::foresee(double dt) noexcept {
 
 void ModalMotion::push(const ContactShare& forces, const NodeState& nodes, double dt) noexcept {
     const Mat3 back = state_.turn.toRotationMatrix().transpose();
-    std::fill(impulse_.begin(), impulse_.end(), 0.0);
+    const std::span<double> given = std::span(impulse_).first(band_);
+    std::fill(given.begin(), given.end(), 0.0);
     forces.each([&](std::size_t n, const auto& f) {
         const Vec3 impulse = dt * f;
-        project(*basis_, n, back * impulse, impulse_);
+        project(*basis_, n, back * impulse, given);
         if (basis_->held)
             return;
         state_.velocity += impulse / basis_->total_mass;
         state_.spin_momentum += (nodes.position[n] - state_.center).cross(impulse);
     });
-    awake_ = basis_->columns;
-    unpruned_ = 0;
+    if (awake_ < band_) {
+        awake_ = band_;
+        unpruned_ = 0;
+    }
     if (foreseen_ != dt) {
-        for (std::size_t k = 0; k < awake_; ++k)
-            state_.rate[k] += impulse_[k];
+        for (std::size_t k = 0; k < band_; ++k)
+            state_.rate[k] += given[k];
         foreseen_ = 0;
         return;
     }
-    oscillators_.respond(dt, impulse_, ahead_.amplitude, ahead_.rate);
+    oscillators_.respond(dt, given, ahead_.amplitude, ahead_.rate);
     if (!basis_->held)
         fly(dt);
     ahead_.center = state_.center;
@@ -244,12 +248,13 @@ void ModalMotion::advance(double dt) noexcept {
 void ModalMotion::rest_what_died() noexcept {
     constexpr int kPatience = 16;    // advances: pushes come in bursts
     constexpr double kShare = 1e-12; // of the energy
-    const std::size_t heard = basis_->audible_columns;
-    if (awake_ == heard || ++unpruned_ < kPatience)
+    const std::size_t lower =
+        awake_ > basis_->gentle_columns ? basis_->gentle_columns : basis_->audible_columns;
+    if (awake_ == lower || ++unpruned_ < kPatience)
         return;
     unpruned_ = 0;
     double above = 0;
-    for (std::size_t k = heard; k < awake_; ++k) {
+    for (std::size_t k = lower; k < awake_; ++k) {
         const double a = basis_->omega[k] * state_.amplitude[k];
         above += a * a + state_.rate[k] * state_.rate[k];
     }
@@ -257,8 +262,8 @@ void ModalMotion::rest_what_died() noexcept {
         return;
     for (ModalState* state : {&state_, &ahead_})
         for (AlignedVector<double>* q : {&state->amplitude, &state->rate})
-            std::fill(q->begin() + static_cast<std::ptrdiff_t>(heard), q->end(), 0.0);
-    awake_ = heard;
+            std::fill(q->begin() + static_cast<std::ptrdiff_t>(lower), q->end(), 0.0);
+    awake_ = lower;
 }
 
 } // namespace ode::soft

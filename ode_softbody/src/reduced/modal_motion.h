@@ -55,12 +55,15 @@ public:
     const ModalState& foresee(double dt) noexcept;
     /// Amplitude after dt for a unit of rate before, column by column [s].
     std::span<const double> drift(double dt) noexcept { return oscillators_.drift(dt); }
+    /// How many modes pushes move, the first ones, whole lanes: all unless told otherwise.
+    void set_band(std::size_t columns) noexcept { band_ = columns; }
+    std::size_t band() const noexcept { return band_; }
     /// An impulse before advance(dt): each force for dt [s] at the nodes' place().
     void push(const ContactShare& forces, const NodeState& nodes, double dt) noexcept;
     void advance(double dt) noexcept;
 
-    /// The modes that are in motion: all, or those that are heard, once what lies above has died
-    /// away. The others are zero.
+    /// The modes that are in motion: all, those that gentle contact moves, or those that are heard,
+    /// once what lies above has died away. The others are zero.
     std::size_t awake() const noexcept { return awake_; }
     std::span<const double> awake(const AlignedVector<double>& q) const noexcept {
         return std::span(q).first(awake_);
@@ -95,6 +98,7 @@ private:
     Oscillators oscillators_;
     ModalState state_;
     std::size_t awake_; ///< columns
+    std::size_t band_;  ///< columns
     int unpruned_ = 0;  ///< advances since the modes above were last looked at
     ModalState kept_;   ///< by keep()
     std::size_t kept_awake_ = 0;

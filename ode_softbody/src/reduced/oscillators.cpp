@@ -76,7 +76,7 @@ void Oscillators::respond(double dt, std::span<const double> impulse, std::span<
                           std::span<double> rate) noexcept {
     const std::size_t n = size();
     const double* table = length(dt).table.data();
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < impulse.size(); ++i) {
         amplitude[i] += table[n + i] * impulse[i];
         rate[i] += table[3 * n + i] * impulse[i];
     }

@@ -23,7 +23,8 @@ public:
     /// Advances amplitudes and their rates by dt [s]; of the first, or of all.
     void advance(double dt, std::span<double> amplitude, std::span<double> rate) noexcept;
 
-    /// What pushes at the beginning have added by the end. @param impulse  to each rate.
+    /// What pushes at the beginning have added by the end. @param impulse  to each rate, of the
+    /// first.
     void respond(double dt, std::span<const double> impulse, std::span<double> amplitude,
                  std::span<double> rate) noexcept;
     /// Amplitude after dt for a unit of rate before [s].

@@ -24,11 +24,12 @@ std::vector<Eigen::Index> rows_of(const ModalProblem& problem) {
 
 } // namespace
 
-ResidualFlexibility residual_flexibility(const TetMesh& mesh, std::span<const Solid> solids,
-                                         const ModalOptions& options, const ModalModel& modes,
-                                         const PushedNodes& pushed) {
-    ResidualFlexibility out{std::vector<double>(mesh.node.size(), 0.0),
-                            std::vector<double>(mesh.node.size(), 0.0)};
+std::vector<ResidualFlexibility>
+residual_flexibility(const TetMesh& mesh, std::span<const Solid> solids,
+                     const ModalOptions& options, const ModalModel& modes,
+                     const PushedNodes& pushed, std::span<const std::size_t> kept) {
+    std::vector<ResidualFlexibility> out(kept.size(), {std::vector<double>(mesh.node.size(), 0.0),
+                                                       std::vector<double>(mesh.node.size(), 0.0)});
     if (modes.mode_count() == 0)
         return out;
     ModalProblem problem(mesh, solids, options);
@@ -44,20 +45,23 @@ ResidualFlexibility residual_flexibility(const TetMesh& mesh, std::span<const So
         const Eigen::Index r = row[node];
         if (r < 0)
             continue;
-        const auto yields = [&](const Vec3& n) {
+        const auto measure = [&](const Vec3& n, auto place) {
             double left = n.dot(inverse[static_cast<std::size_t>(r / 3)] * n);
             for (Eigen::Index k = 0; k < rigid.cols(); ++k) {
                 const double push = n.dot(Vec3(rigid.block<3, 1>(r, k)));
                 left -= push * push / shift;
             }
-            for (std::size_t k = 0; k < modes.mode_count(); ++k) {
-                const double push = n.dot(modes.shape_at(k, node));
-                left -= push * push / (eigenvalue_of(modes.frequency[k]) + shift);
+            std::size_t k = 0;
+            for (std::size_t i = 0; i < kept.size(); ++i) {
+                for (; k < kept[i]; ++k) {
+                    const double push = n.dot(modes.shape_at(k, node));
+                    left -= push * push / (eigenvalue_of(modes.frequency[k]) + shift);
+                }
+                (out[i].*place)[node] = std::max(0.0, left);
             }
-            return std::max(0.0, left);
         };
-        out.normal[node] = yields(pushed.normal[p]);
-        out.across[node] = yields(pushed.normal[p].unitOrthogonal());
+        measure(pushed.normal[p], &ResidualFlexibility::normal);
+        measure(pushed.normal[p].unitOrthogonal(), &ResidualFlexibility::across);
     }
     return out;
 }

@@ -249,6 +249,9 @@ private:
     /// Whether such a blow may be taken in modes.
     bool bears_in_modes(double blow, ModalTier& modes) noexcept;
     double linear_error_of(double displacement) const noexcept; ///< [m]
+    /// Which modes contact moves. @param blow  what may come within the step [m/s].
+    void choose_band(double blow) noexcept;
+    void set_band(std::size_t columns) noexcept;
     void level_velocity() noexcept; ///< brings it to the positions' time
     void enter_modes() noexcept;
     void leave_modes() noexcept;  ///< the nodes take over
@@ -385,6 +388,7 @@ private:
     double waveform_tolerance_ = 0.025; ///< of modes against nodes: see linear_error_of()
     double linear_error_ = std::numeric_limits<double>::infinity();
     double thickness_ = 0;  ///< twice volume over surface [m]
+    double gentle_for_ = 0; ///< no blow [s]
     double sampled_at_ = 0; ///< displacement at which the error was last estimated [m]
     int unsampled_ = 0;     ///< steps since then
     std::unique_ptr<SoftSurface> soft_surface_; ///< made when it first meets a soft body

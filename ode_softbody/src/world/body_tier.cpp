@@ -37,6 +37,10 @@ constexpr double kGrown = 1.5;      ///< of the displacement, that asks for one 
 constexpr double kErrorPerThickness = 0.3;
 constexpr double kLeastError = 1.4e-3;
 
+// What moves slower than kGentle is pushed at kGentlePace, whose forces move no higher mode.
+constexpr double kGentleBand = 2 * kAudible;
+constexpr double kGentleAfter = 0.01; ///< without a blow [s]
+
 // Contact in modes: 16 substeps to the period of the highest audible tone.
 constexpr double kContactPace = 1 / (16 * kAudible);
 // What lies or rolls has no blow to resolve: sound alone asks for its substep.
@@ -125,11 +129,15 @@ std::shared_ptr<const ModalBasis> Body::find_basis() noexcept {
             else
                 for (const double f : modes.frequency)
                     decay.push_back(form_.damping_table.decay(f));
+            ModalBasis basis = make_basis(modes, mesh_.node, mass(), decay, kAudible, kGentleBand,
+                                          !pinned_.empty());
             const std::vector<Vec3> normal = rest_normals(mesh_, contact_nodes_);
-            return make_basis(
-                modes, mesh_.node, mass(), decay,
-                residual_flexibility(mesh_, solids_, options, modes, {contact_nodes_.node, normal}),
-                kAudible, !pinned_.empty());
+            const std::size_t kept[] = {std::min(basis.gentle_columns, basis.modes), basis.modes};
+            auto residual = residual_flexibility(mesh_, solids_, options, modes,
+                                                 {contact_nodes_.node, normal}, kept);
+            basis.gentle_residual = std::move(residual[0]);
+            basis.residual = std::move(residual[1]);
+            return basis;
         });
     } catch (const std::exception& e) {
         if (tier_choice_ == TierChoice::modes)
@@ -183,14 +191,17 @@ void Body::choose_tier() noexcept {
     if (tier_choice_ == TierChoice::modes) {
         if (!modes_)
             enter_modes();
+        choose_band(blow_ahead(1));
         return;
     }
     ++unsampled_;
-    if (modes_ && !bears_in_modes(blow_ahead(1), *modes_)) {
-        leave_modes();
-        return;
-    }
     if (modes_) {
+        const double blow = blow_ahead(1);
+        if (!bears_in_modes(blow, *modes_)) {
+            leave_modes();
+            return;
+        }
+        choose_band(blow);
         const double now = modes_->motion().largest_displacement();
         if (unsampled_ < kSampled && now < kGrown * sampled_at_)
             return;
@@ -219,6 +230,23 @@ void Body::choose_tier() noexcept {
         return;
     sampled_at_ = motion.largest_displacement();
     enter_modes();
+}
+
+void Body::choose_band(double blow) noexcept {
+    gentle_for_ = blow > kGentle ? 0 : gentle_for_ + world_.last_step();
+    const ModalBasis& basis = modes_->motion().basis();
+    const std::size_t band = gentle_for_ > kGentleAfter ? basis.gentle_columns : basis.columns;
+    if (band != modes_->motion().band())
+        set_band(band);
+}
+
+void Body::set_band(std::size_t columns) noexcept {
+    const ModalBasis& basis = modes_->motion().basis();
+    modes_->motion().set_band(columns);
+    const ResidualFlexibility& residual =
+        columns == basis.columns ? basis.residual : basis.gentle_residual;
+    contact_nodes_.residual = residual.normal;
+    contact_nodes_.residual_across = residual.across;
 }
 
 bool Body::bears_in_modes(double blow, ModalTier& modes) noexcept {
@@ -280,8 +308,8 @@ void Body::enter_modes() noexcept {
     modes_ = std::move(idle_modes_);
     modes_->motion().take(state_, pinned_);
     modes_->moved(true);
-    contact_nodes_.residual = modes_->motion().basis().residual.normal;
-    contact_nodes_.residual_across = modes_->motion().basis().residual.across;
+    set_band(modes_->motion().basis().columns);
+    gentle_for_ = 0;
     world_.exchange_.forget(*this);
     force_.set_zero();
     contacts_.clear();
