@@ -31,17 +31,21 @@ void ContactView::begin(std::span<const int> near, double dt) noexcept {
         const auto n = static_cast<std::size_t>(node);
         const bool known = placed_[n] + 1 == substep_;
         const Vec3 last = at_[n];
-        if (known && !moved)
+        Vec3 here, there;
+        if (known && !moved) {
+            there = later.at(n);
             at_[n] = free_[n];
-        else
-            at_[n] = now.center + turn_ * (b.rest[n] + place.at(n));
+        } else {
+            place.at(n, later, here, there);
+            at_[n] = now.center + turn_ * (b.rest[n] + here);
+        }
         const Vec3 x = at_[n];
         if (known)
             nodes_.velocity[n] = (x - last) / before;
         else if (placed_[n] != substep_)
             nodes_.velocity[n] = now.velocity + spin.cross(x - now.center) + turn_ * rate.at(n);
         nodes_.position[n] = x;
-        free_[n] = ahead.center + turn * (b.rest[n] + later.at(n));
+        free_[n] = ahead.center + turn * (b.rest[n] + there);
         placed_[n] = substep_;
     }
     pushed_ = false;

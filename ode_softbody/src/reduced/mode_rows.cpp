@@ -36,6 +36,27 @@ typedef float Lanes __attribute__((vector_size(32))); // two registers where the
         out[axis] = total(sum[axis]);
 }
 
+[[gnu::always_inline]] inline void expand_pair_body(const float* row, std::size_t stride,
+                                                    std::size_t columns, const float* q,
+                                                    const float* r, double* out,
+                                                    double* other_out) {
+    const std::size_t registers = columns / ModalBasis::kLanes;
+    const std::size_t next = stride / ModalBasis::kLanes;
+    const auto* const own = reinterpret_cast<const Lanes*>(row);
+    const auto* const one = reinterpret_cast<const Lanes*>(q);
+    const auto* const two = reinterpret_cast<const Lanes*>(r);
+    Lanes sum[3] = {}, other[3] = {};
+    for (std::size_t k = 0; k < registers; ++k)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            sum[axis] += own[axis * next + k] * one[k];
+            other[axis] += own[axis * next + k] * two[k];
+        }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        out[axis] = total(sum[axis]);
+        other_out[axis] = total(other[axis]);
+    }
+}
+
 [[gnu::always_inline]] inline void project_body(const float* row, std::size_t stride,
                                                 std::size_t columns, const double* f, double* q) {
     for (std::size_t k = 0; k < columns; ++k)
@@ -84,6 +105,10 @@ ODE_SOFTBODY_BOTH(expand, void,
                   (const float* row, std::size_t stride, std::size_t columns, const float* q,
                    double* out),
                   row, stride, columns, q, out)
+ODE_SOFTBODY_BOTH(expand_pair, void,
+                  (const float* row, std::size_t stride, std::size_t columns, const float* q,
+                   const float* r, double* out, double* other_out),
+                  row, stride, columns, q, r, out, other_out)
 ODE_SOFTBODY_BOTH(project, void,
                   (const float* row, std::size_t stride, std::size_t columns, const double* f,
                    double* q),
@@ -132,7 +157,8 @@ double square(const ModalBasis& basis, const CarriedPoint& point, const Vec3& f,
 
 Spread::Spread(const ModalBasis& basis, std::span<const float> q) noexcept
     : basis_(basis), q_(q.data()), columns_(q.size()),
-      expand_(has_avx2() ? expand_wide : expand_narrow) {}
+      expand_(has_avx2() ? expand_wide : expand_narrow),
+      expand_pair_(has_avx2() ? expand_pair_wide : expand_pair_narrow) {}
 
 Spread::Spread(const ModalBasis& basis, std::span<const double> q,
                std::span<float> scratch) noexcept

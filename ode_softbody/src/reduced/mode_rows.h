@@ -36,11 +36,19 @@ public:
         return out;
     }
 
+    /// The same of this and another of as many modes: rows are fetched once.
+    void at(std::size_t node, const Spread& other, Vec3& own, Vec3& others) const noexcept {
+        expand_pair_(basis_.row(node, 0), basis_.columns, columns_, q_, other.q_, own.data(),
+                     others.data());
+    }
+
 private:
     const ModalBasis& basis_;
     const float* q_;
     std::size_t columns_; ///< of the basis, that q has
     void (*expand_)(const float*, std::size_t, std::size_t, const float*, double*);
+    void (*expand_pair_)(const float*, std::size_t, std::size_t, const float*, const float*,
+                         double*, double*);
 };
 
 } // namespace ode::soft
