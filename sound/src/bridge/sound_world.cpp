@@ -152,8 +152,10 @@ std::shared_ptr<const ModalVoiceModel> SoundWorld::voice_model(dSoftBodyID body)
                 shape.push_back(
                     static_cast<double>(basis.shape[(3 * n + axis) * basis.stride + k]));
     const auto modes = static_cast<std::size_t>(basis.mode_count);
-    const auto made = make_voice_model({basis.omega, modes}, {basis.decay, modes}, mesh, shape,
-                                       scene_.settings(), kept_tables());
+    const auto made = cost_.run_once([&] {
+        return make_voice_model({basis.omega, modes}, {basis.decay, modes}, mesh, shape,
+                                scene_.settings(), kept_tables());
+    });
     place = made;
     return made;
 }
@@ -172,7 +174,7 @@ void SoundWorld::on_modal(const dSoftModalState& state) noexcept {
         const int triangles = dSoftBodyGetTriangles(state.body, &triangle);
         cost_.run([&] {
             scene_.push(state.body, {triangle, 3 * static_cast<std::size_t>(triangles)}, view,
-                        [&] { return cost_.run_once([&] { return voice_model(state.body); }); });
+                        [&] { return voice_model(state.body); });
         });
     } catch (const std::exception& e) {
         failed_ = true;

@@ -17,42 +17,68 @@ VoiceGains::VoiceGains(const TransferTable& table, std::size_t lead)
             row->assign(lanes, 0.0f);
 }
 
-bool VoiceGains::look(std::int64_t sample, const TransferTable& table, const Vec3& place) noexcept {
-    const bool anew = !known_ || sample - looked_ > 64 * kInterval;
+double VoiceGains::lobe(const Vec3& place) const noexcept {
+    // The finest pattern has scratch_.size() lobes on the sphere.
+    return place.norm() / std::sqrt(static_cast<double>(scratch_.size()));
+}
+
+double VoiceGains::share(std::int64_t sample) const noexcept {
+    return std::min(1.0, static_cast<double>(sample - looked_) / static_cast<double>(ramp_));
+}
+
+bool VoiceGains::look(std::int64_t sample, const TransferTable& table, const Vec3& place,
+                      std::int64_t longest) noexcept {
+    const std::int64_t since = sample - looked_;
+    const bool anew = !known_ || since <= 0 || since > 64 * kInterval;
+    const double come = anew ? 1.0 : share(sample);
+    pace_ = anew ? Vec3::Zero() : Vec3((place - seen_) / static_cast<double>(since));
+    seen_ = place;
     looked_ = sample;
     anew_ = true;
-    // The finest pattern has scratch_.size() lobes on the sphere: none has moved by a twentieth.
-    constexpr double kSame = 0.05;
-    const double lobe = place.norm() / std::sqrt(static_cast<double>(scratch_.size()));
-    if (known_ && (place - place_).norm() < kSame * lobe) {
+    ramp_ = longest;
+    if (kLeap * lobe(place) < pace_.norm() * static_cast<double>(longest))
+        ramp_ = std::max<std::int64_t>(
+            kInterval, static_cast<std::int64_t>(kLeap * lobe(place) / pace_.norm()));
+    const Vec3 there = place + static_cast<double>(ramp_) * pace_;
+    const bool same = known_ && come == 1.0 && (there - place_).norm() < kSame * lobe(place);
+    if (same) {
         turns_ = false;
-        std::fill(velocity_step_.begin(), velocity_step_.end(), 0.0f);
-        std::fill(acceleration_step_.begin(), acceleration_step_.end(), 0.0f);
-        for (std::size_t k = 0; k < next_.size(); ++k) {
-            velocity_[lead_ + k] = next_[k].velocity;
-            acceleration_[lead_ + k] = next_[k].acceleration;
-        }
-        return false;
-    }
-    now_.swap(next_);
-    table.gains(place, next_, scratch_);
-    if (anew)
         now_ = next_;
-    known_ = true;
-    turns_ = !anew;
-    place_ = place;
+    } else {
+        for (std::size_t k = 0; turns_ && k < now_.size(); ++k) {
+            const auto part = static_cast<float>(come);
+            now_[k].velocity += part * (next_[k].velocity - now_[k].velocity);
+            now_[k].acceleration += part * (next_[k].acceleration - now_[k].acceleration);
+        }
+        if (!turns_)
+            now_.swap(next_);
+        table.gains(there, next_, scratch_);
+        if (anew)
+            now_ = next_;
+        known_ = true;
+        turns_ = !anew;
+        place_ = there;
+    }
     for (std::size_t k = 0; k < now_.size(); ++k) {
         velocity_[lead_ + k] = now_[k].velocity;
         acceleration_[lead_ + k] = now_[k].acceleration;
         velocity_step_[lead_ + k] = next_[k].velocity - now_[k].velocity;
         acceleration_step_[lead_ + k] = next_[k].acceleration - now_[k].acceleration;
     }
-    return true;
+    return !same;
 }
 
 double VoiceGains::flow(const ModalBlock& block, const Vec3& ear) noexcept {
-    if (!known_ || block.sample - looked_ >= kInterval || block.sample < looked_)
-        look(block.sample, *block.table, block.rotation.transpose() * (ear - block.center));
+    const std::int64_t since = block.sample - looked_;
+    if (!known_ || since < 0 || since >= watched_ + kInterval) {
+        watched_ = since;
+        const Vec3 place = block.rotation.transpose() * (ear - block.center);
+        const Vec3 off = place - seen_ - static_cast<double>(since) * pace_;
+        if (!known_ || since < 0 || since >= ramp_ || off.norm() > kSame * lobe(place)) {
+            look(block.sample, *block.table, place, kLongest);
+            watched_ = 0;
+        }
+    }
     constexpr std::size_t kLanes = 8;
     float sum[kLanes] = {}, change[kLanes] = {};
     const auto add = [&](std::size_t k, std::size_t lane) {
@@ -71,9 +97,8 @@ double VoiceGains::flow(const ModalBlock& block, const Vec3& ear) noexcept {
         all += static_cast<double>(sum[lane]);
         slope += static_cast<double>(change[lane]);
     }
-    const double share = static_cast<double>(block.sample - looked_) / kInterval;
     const Vec3 centre = block.center + block.rotation * block.table->centre;
-    return (all + std::min(1.0, share) * slope) * (ear - centre).norm();
+    return (all + share(block.sample) * slope) * (ear - centre).norm();
 }
 
 void VoiceGains::look_again(const ModalRun& run, const Vec3& ear, double allowance) noexcept {
@@ -83,8 +108,8 @@ void VoiceGains::look_again(const ModalRun& run, const Vec3& ear, double allowan
     const bool asks = since >= kInterval && credit_ >= cost;
     if (known_ && !asks && since >= 0)
         return;
-    ramp_ = std::clamp<std::int64_t>(since, kInterval, 32 * kInterval);
-    if (look(run.sample, *run.table, run.rotation.transpose() * (ear - run.center)))
+    if (look(run.sample, *run.table, run.rotation.transpose() * (ear - run.center),
+             std::clamp<std::int64_t>(since, kInterval, kLongest)))
         credit_ -= cost;
 }
 
@@ -107,11 +132,8 @@ void VoiceGains::flow(const ModalRun& run, std::span<VoiceGains* const> gains,
         return;
     kernels().weigh(run.columns, run.samples, ears, step, run.amplitude, run.rate, slopes);
     for (std::size_t e = 0; e < gains.size(); ++e)
-        for (int s = 0; s < run.samples; ++s) {
-            const double share = static_cast<double>(run.sample + s - gains[e]->looked_) /
-                                 static_cast<double>(gains[e]->ramp_);
-            out[e][s] += static_cast<float>(std::min(1.0, share)) * slope[e][s];
-        }
+        for (int s = 0; s < run.samples; ++s)
+            out[e][s] += static_cast<float>(gains[e]->share(run.sample + s)) * slope[e][s];
 }
 
 void VoiceGains::pressure_flow(const ModalRun& run, std::span<VoiceGains* const> gains,
@@ -126,13 +148,9 @@ void VoiceGains::pressure_flow(const ModalRun& run, std::span<VoiceGains* const>
     for (std::size_t e = 0; e < gains.size(); ++e) {
         VoiceGains& own = *gains[e];
         own.look_again(run, ear[e], allowance);
-        const auto share_at = [&](std::int64_t sample) {
-            const double since = static_cast<double>(sample - own.looked_);
-            return std::min(1.0, since / static_cast<double>(own.ramp_));
-        };
-        const auto share = static_cast<float>(own.turns_ ? share_at(run.sample) : 0.0);
+        const auto share = static_cast<float>(own.turns_ ? own.share(run.sample) : 0.0);
         const auto more =
-            static_cast<float>(own.turns_ ? share_at(run.sample + length) : 0.0) - share;
+            static_cast<float>(own.turns_ ? own.share(run.sample + length) : 0.0) - share;
         if (own.turns_ || own.anew_) {
             for (std::size_t k = 0; k < own.velocity_.size(); ++k) {
                 own.run_velocity_[k] = own.velocity_[k] + share * own.velocity_step_[k];

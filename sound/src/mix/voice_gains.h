@@ -44,8 +44,18 @@ public:
 private:
     /// Looks at the table when it is time to, and while there is an allowance for it.
     void look_again(const ModalRun& run, const Vec3& ear, double allowance) noexcept;
+    // Of a lobe of the finest pattern: nearer places sound alike, and between places so far apart
+    // the pattern is as good as straight (0.25^2 / 8 of it).
+    static constexpr double kSame = 0.05, kLeap = 0.25;
+    static constexpr std::int64_t kLongest = 32 * kInterval;
+
+    /// Gains on their way to those of where the ear will be, if it goes on as since the last look.
+    /// @param longest  way [grid samples].
     /// @return whether the table was asked.
-    bool look(std::int64_t sample, const TransferTable& table, const Vec3& place) noexcept;
+    bool look(std::int64_t sample, const TransferTable& table, const Vec3& place,
+              std::int64_t longest) noexcept;
+    double share(std::int64_t sample) const noexcept; ///< of the way, that is behind
+    double lobe(const Vec3& place) const noexcept;    ///< [m]
 
     std::vector<ModeGain> now_, next_;
     std::size_t lead_;
@@ -54,10 +64,13 @@ private:
     AlignedFloats run_velocity_, run_acceleration_, run_velocity_step_, run_acceleration_step_;
     std::vector<double> scratch_;
     std::int64_t looked_ = 0;
-    Vec3 place_ = Vec3::Zero(); ///< of the ear in the frame, at the last real look [m]
+    std::int64_t watched_ = 0;  ///< after that: whether the ear goes on as it did
+    Vec3 seen_ = Vec3::Zero();  ///< the ear in the frame, at the last look [m]
+    Vec3 pace_ = Vec3::Zero();  ///< [m] a grid sample
+    Vec3 place_ = Vec3::Zero(); ///< of next_ [m]
     bool known_ = false;
     double credit_ = 0.0;
-    std::int64_t ramp_ = kInterval; ///< to the gains of the last look [grid samples]
+    std::int64_t ramp_ = kInterval; ///< the way to next_ [grid samples]
     bool turns_ = false;            ///< the steps aren't zero
     bool anew_ = true;              ///< looked since the gains of a run were worked out
 };
