@@ -22,6 +22,8 @@ public:
     virtual Vec3 ahead(const CarriedPoint& point) const noexcept = 0;
     /// What an impulse of 1 N s, spread over the substep, along a unit vector adds to it [1/kg].
     virtual double compliance(const CarriedPoint& point, const Vec3& direction) const noexcept = 0;
+    /// What the same impulse at a node adds to the node's own velocity [1/kg].
+    virtual Vec3 yield(std::size_t node, const Vec3& direction) const noexcept = 0;
     /// A constant force over the substep [N].
     virtual void push(std::size_t node, const Vec3& force) noexcept = 0;
 };

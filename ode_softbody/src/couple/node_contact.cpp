@@ -163,6 +163,7 @@ unsigned long NodeContact::find(const NodeArray& position, const NodeArray& velo
     touch_.clear();
     bearing_ = 0;
     at_once_ = !rigid.can_move() && shape_.kind != ShapeKind::probed;
+    backwards_ = !backwards_;
     double load = 0;
     if (shape_.kind == ShapeKind::probed)
         load = find_touching_planes(position, velocity, rigid, dt);

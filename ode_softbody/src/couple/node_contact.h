@@ -168,9 +168,11 @@ private:
     double grip_load(std::size_t node, const Vec3& x, const Vec3& normal, double dt,
                      const RigidShadow& rigid) const noexcept;
     /// Friction of a node that bears. @param across  the normal in the shape's frame.
+    /// @param led  mean velocity over the substep with all force but this, where there is a joint
+    ///             inertia, else null [m/s].
     Vec3 grip_of(std::size_t node, const Vec3& local, const Vec3& across, const Vec3& slip,
                  const Vec3& normal, double press, const Mat3& rotation, const TouchForces& on,
-                 const Vec3& base) noexcept;
+                 const Vec3& base, const Vec3* led) noexcept;
 
     const SurfaceNodes& nodes_;
     dGeomID geom_;
@@ -179,7 +181,8 @@ private:
     std::vector<TangentPlane> faces_; ///< the same's
     ContactLaw law_;
     bool is_prepared_ = false;
-    bool at_once_ = false; ///< nodes touch in push_at_once() alone
+    bool at_once_ = false;   ///< nodes touch in push_at_once() alone
+    bool backwards_ = false; ///< in what order, from substep to substep
     // Per surface node:
     std::vector<double> stiffness_; ///< [N/m]
     std::vector<double> damping_;   ///< [N s/m]

@@ -112,7 +112,7 @@ double NodeContact::grip_load(std::size_t node, const Vec3& x, const Vec3& norma
 
 Vec3 NodeContact::grip_of(std::size_t i, const Vec3& local, const Vec3& across, const Vec3& slip,
                           const Vec3& normal, double press, const Mat3& rotation,
-                          const TouchForces& on, const Vec3& base) noexcept {
+                          const TouchForces& on, const Vec3& base, const Vec3* led) noexcept {
     if (!anchored_[i]) {
         anchored_[i] = 1;
         anchor_[i] = local;
@@ -129,15 +129,15 @@ Vec3 NodeContact::grip_of(std::size_t i, const Vec3& local, const Vec3& across, 
     if (clamp_length(stretch, grip / k))
         anchor_[i] = local - stretch;
     Vec3 f = rotation * (-k * stretch) - c * (slip - slip.dot(normal) * normal);
-    if (on.force.joint()) {
+    if (led) {
         // The substep is long for these springs: the force is the one at its end.
         const Vec3 stretched = rotation * stretch;
         const auto across_of = [&](const Vec3& v) { return Vec3(v - v.dot(normal) * normal); };
         const Vec3 along = (stretched + on.dt * across_of(slip)).stableNormalized();
-        const Ahead ahead = ahead_of(on, index(nodes_.node[i]), along);
-        const Vec3 creep = across_of(ahead.velocity - base);
+        const double compliance = along.dot(on.force.joint()->yield(index(nodes_.node[i]), along));
+        const Vec3 creep = across_of(*led - base);
         f = -(k * (stretched + on.dt * creep) + c * creep) /
-            (1 + ahead.compliance * on.dt * (k * on.dt + c));
+            (1 + compliance * on.dt * (k * on.dt + c));
     }
     clamp_length(f, grip);
     return f;
@@ -151,8 +151,10 @@ void NodeContact::push_at_once(const NodeArray& position, const TouchForces& on,
     const Pose pose = shape_.pose.in(motion.pose);
     Wrench sum;
     with_distance(shape_.kind, [&](auto distance_of) {
-        for (const int candidate : candidate_) {
-            const std::size_t i = index(candidate);
+        // Who comes later meets what the earlier have done, not the other way round. Always in one
+        // order, nodes that lie on a floor would be driven by it; to and fro they come to rest.
+        for (std::size_t at = 0; at < candidate_.size(); ++at) {
+            const std::size_t i = index(candidate_[backwards_ ? candidate_.size() - 1 - at : at]);
             const std::size_t n = index(nodes_.node[i]);
             const Vec3 x = position[n];
             const Vec3 local = pose.to_local(x);
@@ -162,26 +164,33 @@ void NodeContact::push_at_once(const NodeArray& position, const TouchForces& on,
                 continue;
             const Vec3 normal = pose.rotation * gap.normal;
             const double parting = slip.dot(normal);
-            const Ahead ahead = ahead_of(on, n, normal);
-            const double press =
-                NormalContact{.stiffness = stiffness_[i],
-                              .damping = damping_[i],
-                              .compliance = ahead.compliance,
-                              .depth = -gap.distance,
-                              .speed = -parting,
-                              .ahead = (motion.velocity_at(x) - ahead.velocity).dot(normal)}
-                    .press(on.dt)
-                    .force;
+            const Vec3 base = motion.velocity_at(x);
+            const JointInertia* const joint = on.force.joint();
+            const double lightness = on.inverse_mass[n];
+            Vec3 yield, led;
+            if (joint) {
+                yield = joint->yield(n, normal);
+                led = joint->ahead({{static_cast<int>(n)}, {1, 0, 0}});
+            } else {
+                led = on.velocity[n] + on.dt * lightness * on.force[n];
+            }
+            const double press = NormalContact{.stiffness = stiffness_[i],
+                                               .damping = damping_[i],
+                                               .compliance = joint ? normal.dot(yield) : lightness,
+                                               .depth = -gap.distance,
+                                               .speed = -parting,
+                                               .ahead = (base - led).dot(normal)}
+                                     .press(on.dt)
+                                     .force;
             if (press == 0)
                 continue;
             ++bearing_;
-            const bool told = on.force.joint();
-            if (told) // friction asks what the normal force does
-                on.force.add(n, press * normal);
-            const Vec3 grip = grip_of(i, local, gap.normal, slip, normal, press, pose.rotation, on,
-                                      motion.velocity_at(x));
-            const Vec3 f = grip + press * normal;
-            on.force.add(n, told ? grip : f);
+            if (joint)
+                led += on.dt * press * yield;
+            const Vec3 f =
+                press * normal + grip_of(i, local, gap.normal, slip, normal, press, pose.rotation,
+                                         on, base, joint ? &led : nullptr);
+            on.force.add(n, f);
             sum.force -= f;
             sum.torque -= (x - motion.pose.position).cross(f);
         }
@@ -235,11 +244,17 @@ std::size_t NodeContact::drag(const TouchForces& on, RigidShadow& rigid) noexcep
             continue;
         ++bearing_;
         const std::size_t i = index(touch.node);
-        const Vec3 f = grip_of(i, touch.local, touch.across, touch.slip, touch.normal,
-                               touch.press.force, rotation, on, motion.velocity_at(touch.at));
+        const std::size_t n = index(nodes_.node[i]);
+        const JointInertia* const joint = on.force.joint();
+        Vec3 led;
+        if (joint)
+            led = joint->ahead({{static_cast<int>(n)}, {1, 0, 0}});
+        const Vec3 f =
+            grip_of(i, touch.local, touch.across, touch.slip, touch.normal, touch.press.force,
+                    rotation, on, motion.velocity_at(touch.at), joint ? &led : nullptr);
         if (law_.friction == 0)
             continue;
-        on.force.add(index(nodes_.node[i]), f);
+        on.force.add(n, f);
         rigid.add({-f, -(touch.at - motion.pose.position).cross(f)});
     }
     bearing_ += samples_.drag(softening_, on, rigid);

@@ -52,7 +52,7 @@ struct Ahead {
                                              const Vec3& direction) noexcept {
     if (const JointInertia* joint = on.force.joint()) {
         const CarriedPoint point{{static_cast<int>(node)}, {1, 0, 0}};
-        return {joint->ahead(point), joint->compliance(point, direction)};
+        return {joint->ahead(point), direction.dot(joint->yield(node, direction))};
     }
     const double lightness = on.inverse_mass[node];
     return {on.velocity[node] + on.dt * lightness * on.force[node], lightness};

@@ -3,13 +3,19 @@
 #include "reduced/mode_rows.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace ode::soft {
 
 ContactView::ContactView(ModalMotion& motion, NodeState& nodes)
     : motion_(motion), nodes_(nodes), placed_(motion.basis().nodes(), 0),
       at_(motion.basis().nodes()), free_(motion.basis().nodes()),
-      yield_(motion.basis().columns, 0.0f), gain_(motion.basis().columns, 0.0f) {
+      gain_(motion.basis().columns, 0.0f) {
+    for (Length& length : lengths_) {
+        length.rate.assign(motion.basis().columns, 0.0f);
+        length.yield.resize(motion.basis().nodes());
+        length.known.assign(motion.basis().nodes(), 0);
+    }
     for (AlignedVector<float>& q : scratch_)
         q.assign(motion.basis().columns, 0.0f);
 }
@@ -55,16 +61,34 @@ void ContactView::begin(std::span<const int> near, double dt) noexcept {
     spin_gain_.setZero();
     if (moved)
         std::fill(gain_.begin(), gain_.end(), 0.0f);
-    if (yield_dt_ == dt)
+    choose_length(dt);
+    for (int axis = 0; axis < 3; ++axis)
+        lightness_.col(axis) = motion_.spin_of(Vec3::Unit(axis));
+}
+
+void ContactView::choose_length(double dt) noexcept {
+    const std::size_t band = motion_.band();
+    const auto known = std::find_if(lengths_.begin(), lengths_.end(), [&](const Length& length) {
+        return length.dt == dt && length.band == band;
+    });
+    if (known != lengths_.end()) {
+        length_ = &*known;
+        length_->used = substep_;
         return;
+    }
+    length_ = &*std::min_element(lengths_.begin(), lengths_.end(),
+                                 [](const auto& a, const auto& b) { return a.used < b.used; });
+    length_->dt = dt;
+    length_->band = band;
+    length_->used = substep_;
+    std::fill(length_->known.begin(), length_->known.end(), std::uint8_t{0});
     const std::span<const double> drift = motion_.drift(dt);
-    for (std::size_t k = 0; k < b.columns; ++k)
-        yield_[k] = static_cast<float>(drift[k]);
-    yield_dt_ = dt;
+    for (std::size_t k = 0; k < band; ++k)
+        length_->rate[k] = static_cast<float>(drift[k]);
 }
 
 Vec3 ContactView::ahead(const CarriedPoint& point) const noexcept {
-    const Spread gain(motion_.basis(), band(gain_));
+    const Spread gain(motion_.basis(), std::span(std::as_const(gain_)).first(motion_.band()));
     Vec3 out = Vec3::Zero(), local = Vec3::Zero(), at = Vec3::Zero();
     for (std::size_t i = 0; i < 3; ++i) {
         const double w = point.weight[static_cast<int>(i)];
@@ -84,7 +108,7 @@ Vec3 ContactView::ahead(const CarriedPoint& point) const noexcept {
 
 double ContactView::compliance(const CarriedPoint& point, const Vec3& direction) const noexcept {
     const ModalBasis& b = motion_.basis();
-    const double modal = square(b, point, turn_.transpose() * direction, band(yield_)) / dt_;
+    const double modal = square(b, point, turn_.transpose() * direction, rates()) / dt_;
     if (b.held)
         return modal;
     Vec3 at = Vec3::Zero();
@@ -92,21 +116,37 @@ double ContactView::compliance(const CarriedPoint& point, const Vec3& direction)
         if (const double w = point.weight[static_cast<int>(i)]; w != 0)
             at += w * at_[static_cast<std::size_t>(point.node[i])];
     const Vec3 arm = (at - motion_.state().center).cross(direction);
-    return modal + 1 / b.total_mass + arm.dot(motion_.spin_of(arm));
+    return modal + 1 / b.total_mass + arm.dot(lightness_ * arm);
+}
+
+Vec3 ContactView::yield(std::size_t node, const Vec3& direction) const noexcept {
+    const ModalBasis& b = motion_.basis();
+    if (!length_->known[node]) {
+        length_->yield[node] = squares(b, node, rates());
+        length_->known[node] = 1;
+    }
+    const auto& [xx, yy, zz, xy, xz, yz] = length_->yield[node];
+    const Vec3 n = turn_.transpose() * direction;
+    const Vec3 local(xx * n.x() + xy * n.y() + xz * n.z(), xy * n.x() + yy * n.y() + yz * n.z(),
+                     xz * n.x() + yz * n.y() + zz * n.z());
+    const Vec3 modal = turn_ * local / dt_;
+    if (b.held)
+        return modal;
+    const Vec3 arm = at_[node] - motion_.state().center;
+    return modal + direction / b.total_mass + (lightness_ * arm.cross(direction)).cross(arm);
 }
 
 void ContactView::push(std::size_t node, const Vec3& force) noexcept {
     pushed_ = true;
     const ModalBasis& b = motion_.basis();
     // The mean rate over dt of a push of f dt is drift / dt times f dt.
-    project(b, node, turn_.transpose() * force, band(yield_),
-            std::span(gain_).first(motion_.band()));
+    project(b, node, turn_.transpose() * force, rates(), std::span(gain_).first(motion_.band()));
     if (b.held)
         return;
     impulse_ += dt_ * force;
     turning_ += dt_ * (at_[node] - motion_.state().center).cross(force);
     rigid_gain_ = impulse_ / b.total_mass;
-    spin_gain_ = motion_.spin_of(turning_);
+    spin_gain_ = lightness_ * turning_;
 }
 
 } // namespace ode::soft

@@ -3,6 +3,8 @@
 #include "couple/joint_inertia.h"
 #include "reduced/modal_motion.h"
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -26,11 +28,24 @@ public:
 
     Vec3 ahead(const CarriedPoint& point) const noexcept override;
     double compliance(const CarriedPoint& point, const Vec3& direction) const noexcept override;
+    Vec3 yield(std::size_t node, const Vec3& direction) const noexcept override;
     void push(std::size_t node, const Vec3& force) noexcept override;
 
 private:
-    std::span<const float> band(const AlignedVector<float>& q) const noexcept {
-        return std::span(q).first(motion_.band());
+    /// What modes do within substeps of one length; few lengths are in use at a time.
+    struct Length {
+        double dt = 0; ///< [s]
+        std::size_t band = 0;
+        unsigned long used = 0;    ///< substep in which it was last
+        AlignedVector<float> rate; ///< mean over the substep for 1 N, mode by mode
+        /// squares() of a node by these, where asked for since they were worked out.
+        std::vector<std::array<double, 6>> yield;
+        std::vector<std::uint8_t> known;
+    };
+    void choose_length(double dt) noexcept;
+
+    std::span<const float> rates() const noexcept {
+        return std::span(length_->rate).first(length_->band);
     }
 
     ModalMotion& motion_;
@@ -44,9 +59,10 @@ private:
     Mat3 turn_ = Mat3::Identity();
     Vec3 impulse_ = Vec3::Zero(), turning_ = Vec3::Zero(); ///< of all pushes, per second [N], [N m]
     Vec3 rigid_gain_ = Vec3::Zero(), spin_gain_ = Vec3::Zero(); ///< by them [m/s], [rad/s]
-    AlignedVector<float> yield_; ///< mean rate over the substep for 1 N, mode by mode
-    double yield_dt_ = 0;
-    AlignedVector<float> gain_; ///< mean rates that pushes have given
+    std::array<Length, 4> lengths_;
+    Length* length_ = nullptr;
+    Mat3 lightness_ = Mat3::Zero(); ///< inverse inertia, world [1/(kg m^2)]
+    AlignedVector<float> gain_;     ///< mean rates that pushes have given
     std::array<AlignedVector<float>, 3> scratch_;
 };
 

@@ -96,6 +96,28 @@ typedef float Lanes __attribute__((vector_size(32))); // two registers where the
     return total(sum);
 }
 
+[[gnu::always_inline]] inline void squares_body(const float* row, std::size_t stride,
+                                                std::size_t columns, const float* scale,
+                                                double* out) {
+    const std::size_t registers = columns / ModalBasis::kLanes;
+    const std::size_t next = stride / ModalBasis::kLanes;
+    const auto* const own = reinterpret_cast<const Lanes*>(row);
+    const auto* const by = reinterpret_cast<const Lanes*>(scale);
+    Lanes sum[6] = {};
+    for (std::size_t k = 0; k < registers; ++k) {
+        const Lanes x = own[k], y = own[next + k], z = own[2 * next + k];
+        const Lanes scaled_x = by[k] * x, scaled_y = by[k] * y;
+        sum[0] += scaled_x * x;
+        sum[1] += scaled_y * y;
+        sum[2] += by[k] * z * z;
+        sum[3] += scaled_x * y;
+        sum[4] += scaled_x * z;
+        sum[5] += scaled_y * z;
+    }
+    for (std::size_t i = 0; i < 6; ++i)
+        out[i] = total(sum[i]);
+}
+
 // The same arithmetic at either register width: equal bits.
 #define ODE_SOFTBODY_BOTH(name, result, parameters, ...)                                           \
     result name##_narrow parameters { return name##_body(__VA_ARGS__); }                           \
@@ -121,6 +143,10 @@ ODE_SOFTBODY_BOTH(square, double,
                   (const float* const* row, const float* f, int count, std::size_t stride,
                    std::size_t columns, const float* scale),
                   row, f, count, stride, columns, scale)
+ODE_SOFTBODY_BOTH(squares, void,
+                  (const float* row, std::size_t stride, std::size_t columns, const float* scale,
+                   double* out),
+                  row, stride, columns, scale, out)
 #undef ODE_SOFTBODY_BOTH
 
 } // namespace
@@ -153,6 +179,14 @@ double square(const ModalBasis& basis, const CarriedPoint& point, const Vec3& f,
     }
     return (has_avx2() ? square_wide : square_narrow)(row, part, count, basis.columns, scale.size(),
                                                       scale.data());
+}
+
+std::array<double, 6> squares(const ModalBasis& basis, std::size_t node,
+                              std::span<const float> scale) noexcept {
+    std::array<double, 6> out;
+    (has_avx2() ? squares_wide : squares_narrow)(basis.row(node, 0), basis.columns, scale.size(),
+                                                 scale.data(), out.data());
+    return out;
 }
 
 Spread::Spread(const ModalBasis& basis, std::span<const float> q) noexcept

@@ -3,6 +3,7 @@
 #include "couple/joint_inertia.h"
 #include "reduced/modal_basis.h"
 
+#include <array>
 #include <span>
 
 namespace ode::soft {
@@ -19,6 +20,10 @@ void project(const ModalBasis& basis, std::size_t node, const Vec3& f, std::span
 /// Sum over the modes of scale times the square of the weighted nodes' rows times f.
 double square(const ModalBasis& basis, const CarriedPoint& point, const Vec3& f,
               std::span<const float> scale) noexcept;
+
+/// Sum over the modes of scale times the products of a node's rows: xx, yy, zz, xy, xz, yz.
+std::array<double, 6> squares(const ModalBasis& basis, std::size_t node,
+                              std::span<const float> scale) noexcept;
 
 /// Amplitudes or their rates, made ready to be spread over nodes.
 class Spread {
