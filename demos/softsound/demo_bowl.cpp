@@ -151,6 +151,7 @@ ode::soft::MeshHandle mesh_of(const scenes::Drop& drop) {
 int run(const Options& o, const Common& common) {
     scenes::World world;
     const dSoftBodyID body = scenes::build(world, o.drop);
+    dSoftBodySetAutoDisableFlag(body, 1); // what lies still costs nothing
     if (!dSoftBodySetTier(body, o.tier.c_str()))
         throw scenes::Refused("the body can't be had in this tier");
     if (!dSoftBodySetWaveformTolerance(body, o.tolerance))

@@ -2,6 +2,7 @@
 #include "reduced/modal_motion.h"
 #include "reduced/mode_rows.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ode::soft {
@@ -37,6 +38,28 @@ double ModalMotion::largest_speed() const noexcept {
         sum += basis_->reach[k] * std::sqrt(state_.rate[k] * state_.rate[k] + ahead * ahead);
     }
     return sum + state_.velocity.norm() + basis_->radius * spin().norm();
+}
+
+bool ModalMotion::is_slower(double speed, std::span<const int> nodes) noexcept {
+    const double half = was_pushed_ ? 0.5 : 0;
+    const Vec3 velocity = state_.velocity + half / basis_->total_mass * linear_impulse_;
+    const Vec3 spin = spin_of(state_.spin_momentum + half * angular_impulse_);
+    const double square = speed * speed;
+    double energy = 0;
+    for (std::size_t k = 0; k < awake_; ++k) {
+        settled_[k] = state_.rate[k] + (k < band_ ? half * impulse_[k] : 0);
+        energy += settled_[k] * settled_[k];
+    }
+    // Some node is as fast as the mean.
+    if (energy > basis_->total_mass * square || velocity.squaredNorm() > square)
+        return false;
+    const Mat3 turn = state_.turn.toRotationMatrix();
+    const Spread rate(*basis_, awake(settled_), single_[1]);
+    return std::all_of(nodes.begin(), nodes.end(), [&](int node) {
+        const auto n = static_cast<std::size_t>(node);
+        const Vec3 v = velocity + spin.cross(turn * basis_->rest[n]) + turn * rate.at(n);
+        return v.squaredNorm() <= square;
+    });
 }
 
 double ModalMotion::displacement_envelope(std::span<const int> nodes) noexcept {

@@ -92,7 +92,7 @@ const ModalState& ModalMotion::foresee(double dt) noexcept {
         return ahead_;
     copy(state_, ahead_); // what sleeps is zero in both
     foreseen_ = 0;
-    advance(dt);
+    move_on(dt);
     std::swap(state_, ahead_);
     foreseen_ = dt;
     return ahead_;
@@ -102,14 +102,19 @@ void ModalMotion::push(const ContactShare& forces, const NodeState& nodes, doubl
     const Mat3 back = state_.turn.toRotationMatrix().transpose();
     const std::span<double> given = std::span(impulse_).first(band_);
     std::fill(given.begin(), given.end(), 0.0);
+    linear_impulse_.setZero();
+    angular_impulse_.setZero();
     forces.each([&](std::size_t n, const auto& f) {
         const Vec3 impulse = dt * f;
         project(*basis_, n, back * impulse, given);
-        if (basis_->held)
-            return;
-        state_.velocity += impulse / basis_->total_mass;
-        state_.spin_momentum += (nodes.position[n] - state_.center).cross(impulse);
+        linear_impulse_ += impulse;
+        angular_impulse_ += (nodes.position[n] - state_.center).cross(impulse);
     });
+    pushed_ = true;
+    if (!basis_->held) {
+        state_.velocity += linear_impulse_ / basis_->total_mass;
+        state_.spin_momentum += angular_impulse_;
+    }
     if (awake_ < band_) {
         awake_ = band_;
         unpruned_ = 0;
@@ -216,12 +221,18 @@ void ModalMotion::mix(const Vec3& spin, double dt) noexcept {
 
 void ModalMotion::advance(double dt) noexcept {
     rest_what_died();
+    was_pushed_ = pushed_;
+    pushed_ = false;
     if (foreseen_ == dt) {
         std::swap(state_, ahead_);
         foreseen_ = 0;
         return;
     }
     foreseen_ = 0;
+    move_on(dt);
+}
+
+void ModalMotion::move_on(double dt) noexcept {
     const Vec3 spin = state_.turn.conjugate() * this->spin();
     const bool spins = spin.squaredNorm() > 0;
     if (!basis_->held)

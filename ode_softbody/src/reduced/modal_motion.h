@@ -74,6 +74,10 @@ public:
     /// Upper bounds over the body: of a node's displacement in the frame [m], of its speed [m/s].
     double largest_displacement() const noexcept;
     double largest_speed() const noexcept;
+    /// Whether none of some nodes is faster at this moment, however they swing. What is pushed as
+    /// it was in the last substep is taken in the middle of the push: what lies on a floor lies
+    /// still.
+    bool is_slower(double speed, std::span<const int> nodes) noexcept;
     /// Largest displacement of any of some nodes, as far as it swings: sqrt(u^2 + (u'/w)^2) [m].
     double displacement_envelope(std::span<const int> nodes) noexcept;
     Vec3 spin() const noexcept { return spin_of(state_.spin_momentum); } ///< world [rad/s]
@@ -86,6 +90,7 @@ public:
 private:
     void fit_frame(const NodeArray& position, std::span<const int> held) noexcept;
     void turn_by(const Vec3& spin, double dt) noexcept;
+    void move_on(double dt) noexcept;
     void fly(double dt) noexcept; ///< the frame
     /// Into settled_: where the first so many modes come to rest.
     void settle(std::size_t columns, const Vec3& spin) noexcept;
@@ -109,7 +114,11 @@ private:
     Vec3 steady_torque_ = Vec3::Zero();                  ///< about its centre [N m]
     AlignedVector<double> load_;                         ///< on each mode, steady [N kg^-1/2]
     mutable std::array<AlignedVector<float>, 2> single_; ///< scratch: what is spread over nodes
-    AlignedVector<double> impulse_;                      ///< scratch
+    AlignedVector<double> impulse_;                      ///< of the last push(), on each mode
+    Vec3 linear_impulse_ = Vec3::Zero();                 ///< the same on the whole body [N s]
+    Vec3 angular_impulse_ = Vec3::Zero();                ///< about its centre [N m s]
+    bool pushed_ = false;                                ///< in this substep
+    bool was_pushed_ = false;                            ///< in the last
     AlignedVector<double> settled_; ///< scratch: where the modes would come to rest
     bool loaded_ = false;           ///< load_ isn't zero
 };

@@ -30,8 +30,10 @@ void Body::fall_asleep() noexcept {
 
 void Body::watch_rest(double passed) noexcept {
     const double speed2 = rest_limits_.speed * rest_limits_.speed;
-    if (modes_) { // what vibrates so little hardly accelerates
-        quiet_ = modes_->motion().largest_speed() <= rest_limits_.speed ? quiet_ + passed : 0;
+    if (modes_) { // what vibrates so little hardly accelerates; what lies stays bent by its weight
+        quiet_ = modes_->motion().is_slower(rest_limits_.speed, contact_nodes_.node)
+                     ? quiet_ + passed
+                     : 0;
         return;
     }
     const double most2 = rest_limits_.acceleration * rest_limits_.acceleration;
