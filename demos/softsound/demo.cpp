@@ -10,6 +10,9 @@ void add_demo(CLI::App& app, Common& common) {
     CLI::App& demo = *app.add_subcommand("demo", "Run a scene and hear, see and read its result");
     add_demo_bowl(demo, common);
     add_demo_chimes(demo, common);
+    add_demo_xylophone(demo, common);
+    add_demo_dice(demo, common);
+    add_demo_marble(demo, common);
     add_demo_bar(demo, common);
     add_demo_plate(demo, common);
     add_demo_vibraphone(demo, common);
