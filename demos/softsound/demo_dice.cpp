@@ -1,11 +1,11 @@
 // Dice and coins fall on a stone table: rigid bodies of ODE, of which the dice are too small to
 // ring.
 //
-// Mathematics. A die's first mode lies at the edge of hearing; what is heard is the air that it pushes as
-// it is jolted (acceleration noise): a dipole, filtered as a sphere's of the same strength,
-// p = d/dt [r . D V / r^2 + r . D V' / (r c)]. A coin is a free disc: f = lambda^2 / (2 pi R^2)
-// sqrt(D / (rho h)), lambda^2 = 5.26 (A. W. Leissa, Vibration of Plates, table 2.6, nu 0.33), less
-// some per cent since it is thick.
+// Mathematics. A die's first mode lies at the edge of hearing; what is heard is the air that it
+// pushes as it is jolted (acceleration noise): a dipole, filtered as a sphere's of the same
+// strength, p = d/dt [r . D V / r^2 + r . D V' / (r c)]. A coin is a free disc: f = lambda^2 / (2
+// pi R^2) sqrt(D / (rho h)), lambda^2 = 5.26 (A. W. Leissa, Vibration of Plates, table 2.6, nu
+// 0.33), less some per cent since it is thick.
 //
 // Command. softsound demo dice
 //
