@@ -63,7 +63,7 @@ void substeps(benchmark::State& state, Radiation radiation, Sampling sampling, i
 void BM_Substep(benchmark::State& state) {
     substeps(state, Radiation::kMonopole, Sampling::kSinc, static_cast<int>(state.range(0)));
 }
-BENCHMARK(BM_Substep)->Arg(1)->Arg(2)->ArgName("listeners");
+BENCHMARK(BM_Substep)->Arg(1)->Arg(2)->Arg(4)->Arg(16)->ArgName("listeners");
 
 void BM_SubstepRayleigh(benchmark::State& state) {
     substeps(state, Radiation::kRayleigh, Sampling::kSinc, 1);

@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <malloc.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <numbers>
@@ -127,6 +129,31 @@ void print_bodies(std::span<const int> counts) {
     }
 }
 
+std::size_t heap_bytes() {
+    const auto info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
+
+/// Cubes of n^3 cells of six elements, node by node: a substep, and all that a body holds.
+void print_elements(std::span<const int> cells) {
+    for (const int n : cells) {
+        const double size = 0.01 * n;
+        const std::size_t before = heap_bytes();
+        TierRun run(make_box({size, size, size}, n, n, n), TierChoice::explicit_space, 1, 0);
+        run.body().add_force(0, {1, 0, 0});
+        const double substep = run.body().substep();
+        run.step(4 * substep);
+        const auto elements = static_cast<double>(run.body().mesh().element_count());
+        const int substeps = std::max(8, static_cast<int>(2e6 / elements));
+        const double first = run.seconds();
+        run.step(substeps * substep);
+        std::printf("| %.0f | %.1f | %.0f |\n", elements,
+                    1e9 * (run.seconds() - first) / substeps / elements,
+                    static_cast<double>(heap_bytes() - before) / elements);
+        std::fflush(stdout);
+    }
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -149,5 +176,9 @@ int main(int argc, char** argv) {
     std::printf("\n| bowls in flight | CPU s/s | us a body and step |\n|---|---|---|\n");
     constexpr int kAll[] = {1, 10, 100, 1000};
     print_bodies(brief ? std::span(kAll).first(2) : std::span(kAll));
+    std::printf("\n| linear elements, explicit | ns an element and substep | bytes an element |\n"
+                "|---|---|---|\n");
+    constexpr int kCells[] = {6, 12, 26, 55};
+    print_elements(brief ? std::span(kCells).first(2) : std::span(kCells));
     return 0;
 }
