@@ -5,28 +5,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <complex>
 #include <numbers>
 
 namespace {
 
 using namespace ode;
+using test::line;
 using test::RigidRing;
 
 constexpr double kTau = 2 * std::numbers::pi;
-
-/// Amplitude of a frequency in the stretch from `from` to `to` [s], Hann window.
-double line(const std::vector<double>& p, double f, double from, double to) {
-    std::complex<double> sum = 0;
-    const auto first = static_cast<std::size_t>(from * RigidRing::kRate);
-    const auto count = static_cast<std::size_t>((to - from) * RigidRing::kRate);
-    for (std::size_t i = 0; i < count && first + i < p.size(); ++i) {
-        const double u = static_cast<double>(i) / static_cast<double>(count);
-        sum += p[first + i] * (1 - std::cos(kTau * u)) *
-               std::polar(1.0, -kTau * f * static_cast<double>(i) / RigidRing::kRate);
-    }
-    return 2 * std::abs(sum) / static_cast<double>(count);
-}
 
 double lowest_mode(dSoundModalID voice) {
     dReal f = 0;

@@ -15,6 +15,7 @@
 namespace {
 
 using namespace ode;
+using test::line;
 using test::RigidRing;
 
 double peak(const std::vector<double>& p, double from = 0, double to = 1e9) {
@@ -23,20 +24,6 @@ double peak(const std::vector<double>& p, double from = 0, double to = 1e9) {
          i < p.size() && static_cast<double>(i) < to * RigidRing::kRate; ++i)
         most = std::max(most, std::fabs(p[i]));
     return most;
-}
-
-/// Amplitude of a frequency in the stretch from `from` to `to` [s], Hann window.
-double line(const std::vector<double>& p, double f, double from, double to) {
-    std::complex<double> sum = 0;
-    const auto first = static_cast<std::size_t>(from * RigidRing::kRate);
-    const auto count = static_cast<std::size_t>((to - from) * RigidRing::kRate);
-    for (std::size_t i = 0; i < count && first + i < p.size(); ++i) {
-        const double u = static_cast<double>(i) / static_cast<double>(count);
-        sum +=
-            p[first + i] * (1 - std::cos(2 * std::numbers::pi * u)) *
-            std::polar(1.0, -2 * std::numbers::pi * f * static_cast<double>(i) / RigidRing::kRate);
-    }
-    return 2 * std::abs(sum) / static_cast<double>(count);
 }
 
 /// ODE's own, whose joints the library doesn't see being made.

@@ -12,7 +12,8 @@ expect_between(2.29 2.346 mass)
 expect_between(0.3190 0.3196 impacts 0)
 # It strikes at 3 m/s: louder than speech (60 dB), and no explosion (its ring decays).
 expect_between(70 150 peak_db_spl)
-expect_between(0.0001 0.95 audio_share)
+# A share, and not none: how large is for the benchmarks to tell.
+expect_between(0.0001 1 audio_share)
 expect_between(2 2 seconds)
 # The same lines after each of five impacts, weighed anew. They differ by the body's speed alone: v / c is
 # 15.8 cents after a fall of half a metre; 2 for a window of 40 ms.

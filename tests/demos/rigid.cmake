@@ -2,17 +2,6 @@
 cmake_minimum_required(VERSION 3.25)
 include(${CMAKE_CURRENT_LIST_DIR}/command.cmake)
 
-function(demo name)
-    must_succeed(demo ${name} --quiet ${ARGN})
-    file(READ ${work}/${name}.json out)
-    set(out "${out}" PARENT_SCOPE)
-    foreach(file ${name}.wav ${name}.png)
-        if(NOT EXISTS ${work}/${file})
-            message(SEND_ERROR "no ${file}")
-        endif()
-    endforeach()
-endfunction()
-
 # Each bar is struck, and in tune with Timoshenko's free bar within the mark of 3 cents.
 demo(xylophone)
 foreach(bar RANGE 7)

@@ -5,6 +5,8 @@
 #include <ode_sound/sound.hpp>
 
 #include <cmath>
+#include <complex>
+#include <numbers>
 #include <vector>
 
 namespace ode::test {
@@ -89,6 +91,20 @@ inline std::vector<double> two_bars(bool left, bool right) {
         dSoundModalStrike(b.voice, at[1], blow, 2e-4);
     app.run(0.1, 0.005);
     return app.heard();
+}
+
+/// Amplitude of a frequency in the stretch from `from` to `to` [s], Hann window.
+inline double line(const std::vector<double>& p, double f, double from, double to) {
+    std::complex<double> sum = 0;
+    const auto first = static_cast<std::size_t>(from * RigidRing::kRate);
+    const auto count = static_cast<std::size_t>((to - from) * RigidRing::kRate);
+    for (std::size_t i = 0; i < count && first + i < p.size(); ++i) {
+        const double u = static_cast<double>(i) / static_cast<double>(count);
+        sum +=
+            p[first + i] * (1 - std::cos(2 * std::numbers::pi * u)) *
+            std::polar(1.0, -2 * std::numbers::pi * f * static_cast<double>(i) / RigidRing::kRate);
+    }
+    return 2 * std::abs(sum) / static_cast<double>(count);
 }
 
 } // namespace ode::test

@@ -16,6 +16,7 @@
 #include "model/solid.h"
 #include "world/energy_budget.h"
 #include "world/modal_tier.h"
+#include "world/rest_limits.h"
 #include "world/rigid_pairs.h"
 #include "world/tier.h"
 
@@ -43,13 +44,6 @@ struct BodyForm {
     std::string integrator = "central-difference"; ///< one of integrator_kinds()
     bool modal_damping = false;                    ///< ModalDamping instead of viscous stress
     DampingTable damping_table; ///< unless empty: instead of the solids' damping; modal
-};
-
-/// What counts as rest: what is cut off is below -90 dB of 20 Pa at a metre, see tests/README.md.
-struct RestLimits {
-    double speed = 1e-3;       ///< of any node [m/s]
-    double acceleration = 0.1; ///< of any node [m/s^2]; of an implicit method nothing is known
-    double time = 0.25;        ///< [s]
 };
 
 /// A soft body: a meshed solid, its motion, its surface and its geom in ODE's space.
