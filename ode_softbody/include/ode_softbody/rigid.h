@@ -29,6 +29,26 @@ typedef struct dSoftRigidContact {
 DSOFT_API int dSoftWorldGetRigidContact(dSoftWorldID world, dJointID joint,
                                         dSoftRigidContact* contact);
 
+/** What a soft body did to a rigid one at one place in a substep, by contact or where it is nailed
+ * to it; the soft body got the opposite. ODE's contact joints know nothing of it. */
+typedef struct dSoftRigidPush {
+    dBodyID body;
+    dSoftBodyID soft;
+    dVector3 position; /**< world [m] */
+    dVector3 force;    /**< on the rigid body, world [N]: times `dt` its impulse */
+    dVector3 center;   /**< of the rigid body then [m] */
+    dMatrix3 rotation; /**< of it, as ODE stores it */
+} dSoftRigidPush;
+/** All of a substep. Rules for steps that are redone: dSoftSubstepCallback. Borrowed. */
+typedef struct dSoftRigidPushes {
+    unsigned struct_size;
+    dSoftWorldID world;
+    dReal time; /**< of the substep's end [s] since the world's creation */
+    dReal dt;   /**< [s] */
+    int count;
+    const dSoftRigidPush* push;
+} dSoftRigidPushes;
+
 /** Notices the end of a rigid body, which ODE announces to nobody: a geom in no space, of the
  * soft bodies' class, that lasts as long as the body does. */
 typedef struct dxSoftRigidWatch* dSoftRigidWatchID;

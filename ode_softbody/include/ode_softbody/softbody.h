@@ -342,6 +342,10 @@ typedef void dSoftBodyEndCallback(void* data, dSoftBodyID body);
 /** Called when the world ends, before its bodies do. */
 typedef void dSoftWorldEndCallback(void* data, dSoftWorldID world);
 
+struct dSoftRigidPushes;
+/** Called before the bodies of a substep are shown, where soft bodies pushed rigid ones in it. */
+typedef void dSoftRigidPushesCallback(void* data, const struct dSoftRigidPushes* pushes);
+
 /** A set of callbacks; those left NULL are not called and cost nothing. */
 typedef struct dSoftObserver {
     unsigned struct_size;
@@ -355,6 +359,7 @@ typedef struct dSoftObserver {
                                        for all bodies alike */
     dSoftStepCallback* on_moved;  /**< after ODE's own step, before dWorldStep returns: joints still
                                        are those of the step */
+    dSoftRigidPushesCallback* on_rigid_pushes; /**< see rigid.h */
 } dSoftObserver;
 
 DSOFT_API int dSoftWorldAddObserver(dSoftWorldID world, const dSoftObserver* observer);

@@ -10,7 +10,8 @@ namespace {
 /// A set of C callbacks as an Observer. Owned by the world's observer list through this file.
 class CallbackObserver final : public Observer {
 public:
-    explicit CallbackObserver(const dSoftObserver& callbacks) noexcept : call_(callbacks) {}
+    CallbackObserver(const dSoftObserver& callbacks, dSoftWorldID world) noexcept
+        : call_(callbacks), world_(world) {}
 
     void* data() const noexcept { return call_.data; }
 
@@ -39,6 +40,27 @@ public:
         substep.triangle = triangles.front().data();
         substep.triangle_count = static_cast<int>(triangles.size());
         call_.on_substep(call_.data, &substep);
+    }
+
+    bool wants_pushes() const noexcept override { return call_.on_rigid_pushes; }
+
+    void on_pushes(double time, double dt, std::span<const PushView> pushes) noexcept override {
+        push_.clear();
+        for (const PushView& view : pushes) {
+            dSoftRigidPush& out = push_.emplace_back();
+            out.body = view.rigid;
+            out.soft = to_id(*view.soft);
+            for (int i = 0; i < 3; ++i) {
+                out.position[i] = view.push.position[i];
+                out.force[i] = view.push.force[i];
+                out.center[i] = view.pose.position[i];
+                for (int j = 0; j < 3; ++j)
+                    out.rotation[4 * i + j] = view.pose.rotation(i, j);
+            }
+        }
+        const dSoftRigidPushes all{sizeof all,  world_, time, dt, static_cast<int>(push_.size()),
+                                   push_.data()};
+        call_.on_rigid_pushes(call_.data, &all);
     }
 
     void on_step(SoftWorld& world, double time) noexcept override {
@@ -86,6 +108,8 @@ private:
     }
 
     dSoftObserver call_;
+    dSoftWorldID world_;
+    std::vector<dSoftRigidPush> push_; ///< scratch
 };
 
 } // namespace
@@ -98,7 +122,7 @@ int dSoftWorldAddObserver(dSoftWorldID world, const dSoftObserver* observer) {
     return guarded(__func__, 0, [&] {
         dSoftObserver callbacks{};
         copy_in(*observer, "{sizeof(dSoftObserver), ...}", &callbacks);
-        watched->add_observer(std::make_unique<CallbackObserver>(callbacks));
+        watched->add_observer(std::make_unique<CallbackObserver>(callbacks, to_id(*watched)));
         return 1;
     });
 }

@@ -223,7 +223,7 @@ ContactTally NodeContact::add_force(const NodeArray& position, const NodeArray& 
         return tally;
     const TouchForces on{inverse_mass_, velocity, force, dt};
     if (!rigid.can_move())
-        push_at_once(position, on, rigid);
+        push_at_once(position, on, rigid, nullptr);
     response_.begin(rigid, dt);
     const auto once = [&] {
         response_.open(rigid);

@@ -4,6 +4,7 @@
 #include "couple/contact_law.h"
 #include "couple/node_forces.h"
 #include "couple/pole_contact.h"
+#include "couple/rigid_push.h"
 #include "couple/rigid_shadow.h"
 #include "couple/rough_places.h"
 #include "couple/sample_contact.h"
@@ -86,8 +87,9 @@ public:
                poles_.is_touching();
     }
     /// Where the rigid body can't be moved, nodes share nothing: each gets its force in one go.
-    void push_at_once(const NodeArray& position, const TouchForces& on,
-                      RigidShadow& rigid) noexcept;
+    /// @param felt  gets what the rigid body does, unless null.
+    void push_at_once(const NodeArray& position, const TouchForces& on, RigidShadow& rigid,
+                      std::vector<RigidPush>* felt) noexcept;
     /// Then normal forces, as often as other forces change: brings each in line with all that acts
     /// on the nodes and on the rigid body. @param on  with what the last sweep added.
     void sweep(const TouchForces& on, RigidResponse& rigid) noexcept;
@@ -96,6 +98,15 @@ public:
 
     /// Last, where the rigid body moves: books what the springs did.
     void enter_books(const TouchForces& on, const RigidResponse& rigid) noexcept;
+
+    /// use(point [m], force [N]): what the rigid body gets at each place by sweep() and drag().
+    template <class Use>
+    void each_push(Use use) const {
+        for (const Touch& touch : touch_)
+            use(touch.at, Vec3(-touch.press.force * touch.normal - touch.grip));
+        samples_.each_push(use);
+        poles_.each_push(use);
+    }
 
     /// All of it, where the rigid body meets nothing else: adds contact forces to `force` [N],
     /// which holds everything else that acts on the nodes, and their reaction to `rigid`.
@@ -142,15 +153,16 @@ private:
 
     /// A node inside the shape.
     struct Touch {
-        int node;         ///< of the surface
-        Vec3 local;       ///< where it is in the shape's frame [m]
-        Vec3 across;      ///< outward normal in the shape's frame
-        Vec3 normal;      ///< the same in the world's
-        double depth;     ///< [m]
-        Vec3 at;          ///< world [m]
-        Vec3 slip;        ///< of the node against the shape, half a substep ago [m/s]
-        double owed = 0;  ///< see EnergyBook [J]
-        Press press = {}; ///< so far
+        int node;                 ///< of the surface
+        Vec3 local;               ///< where it is in the shape's frame [m]
+        Vec3 across;              ///< outward normal in the shape's frame
+        Vec3 normal;              ///< the same in the world's
+        double depth;             ///< [m]
+        Vec3 at;                  ///< world [m]
+        Vec3 slip;                ///< of the node against the shape, half a substep ago [m/s]
+        double owed = 0;          ///< see EnergyBook [J]
+        Press press = {};         ///< so far
+        Vec3 grip = Vec3::Zero(); ///< friction on the node [N]
     };
 
     /// Whether a candidate is in, or may be within the substep; keeps its memory of both.

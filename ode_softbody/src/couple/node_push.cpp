@@ -143,8 +143,8 @@ Vec3 NodeContact::grip_of(std::size_t i, const Vec3& local, const Vec3& across, 
     return f;
 }
 
-void NodeContact::push_at_once(const NodeArray& position, const TouchForces& on,
-                               RigidShadow& rigid) noexcept {
+void NodeContact::push_at_once(const NodeArray& position, const TouchForces& on, RigidShadow& rigid,
+                               std::vector<RigidPush>* felt) noexcept {
     if (!at_once_)
         return;
     const RigidMotion motion = rigid.motion();
@@ -193,6 +193,8 @@ void NodeContact::push_at_once(const NodeArray& position, const TouchForces& on,
             on.force.add(n, f);
             sum.force -= f;
             sum.torque -= (x - motion.pose.position).cross(f);
+            if (felt)
+                felt->push_back({x, -f});
         }
     });
     if (bearing_ != 0)
@@ -239,7 +241,7 @@ void NodeContact::enter_books(const TouchForces& on, const RigidResponse& rigid)
 std::size_t NodeContact::drag(const TouchForces& on, RigidShadow& rigid) noexcept {
     const RigidMotion& motion = rigid.motion();
     const Mat3 rotation = shape_.pose.in(motion.pose).rotation;
-    for (const Touch& touch : touch_) {
+    for (Touch& touch : touch_) {
         if (touch.press.force == 0)
             continue;
         ++bearing_;
@@ -254,6 +256,7 @@ std::size_t NodeContact::drag(const TouchForces& on, RigidShadow& rigid) noexcep
                     rotation, on, motion.velocity_at(touch.at), joint ? &led : nullptr);
         if (law_.friction == 0)
             continue;
+        touch.grip = f;
         on.force.add(n, f);
         rigid.add({-f, -(touch.at - motion.pose.position).cross(f)});
     }

@@ -265,6 +265,7 @@ double PoleContact::find_touching(const NodeArray& position, const NodeArray& ve
         state.normal = -(shape.rotation * inward);
         run_ahead(pole, position, shape, dt);
         pole.touch.press = {};
+        pole.touch.grip.setZero();
         pole.touch.slip = slip_at(pole.touch, surface_, velocity, rigid.motion());
         const Vec3& slip = pole.touch.slip;
         pole.touch.depth -= state.overlap.hidden(pole.touch.depth, -slip.dot(state.normal), dt);

@@ -53,6 +53,13 @@ public:
     void sweep(const TouchForces& on, RigidResponse& rigid) noexcept;
     void enter_books(const TouchForces& on, const RigidResponse& rigid) noexcept;
     std::size_t drag(double softening, const TouchForces& on, RigidShadow& rigid) noexcept;
+    /// As SampleContact's.
+    template <class Use>
+    void each_push(Use use) const {
+        for (std::size_t p = 0; p < pole_count_; ++p)
+            if (pole_[p].touches)
+                use(pole_[p].touch.at.point, force_on_rigid(pole_[p].touch, pole_[p].state));
+    }
 
 private:
     struct Pole {

@@ -204,7 +204,7 @@ void SampleContact::enter_books(const TouchForces& on, const RigidResponse& rigi
 std::size_t SampleContact::drag(double softening, const TouchForces& on,
                                 RigidShadow& rigid) noexcept {
     std::size_t bearing = 0;
-    for (const Touch& touch : touch_)
+    for (Touch& touch : touch_)
         bearing += drag_triangle(touch, state_[index(touch.sample)], law_.friction, softening,
                                  surface_, on, rigid);
     return bearing;

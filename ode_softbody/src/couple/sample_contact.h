@@ -42,6 +42,14 @@ public:
     std::size_t drag(double softening, const TouchForces& on, RigidShadow& rigid) noexcept;
     void enter_books(const TouchForces& on, const RigidResponse& rigid) noexcept;
 
+    /// use(point [m], force [N]): what the rigid body gets of each touch, once all is known.
+    template <class Use>
+    void each_push(Use use) const {
+        for (const Touch& touch : touch_)
+            use(touch.at.point,
+                force_on_rigid(touch, state_[static_cast<std::size_t>(touch.sample)]));
+    }
+
     bool is_touching() const noexcept { return !touch_.empty(); }
     double reach() const noexcept; ///< of the farthest sample from the shape's origin [m]
     bool exist() const noexcept { return !sample_.empty(); }

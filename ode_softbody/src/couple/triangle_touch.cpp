@@ -92,7 +92,7 @@ void enter_book(const TriangleTouch& touch, TouchState& state, const SurfaceNode
     state.book.enter(touch.press.spring, -on.dt * (touch.slip + ahead).dot(state.normal));
 }
 
-bool drag_triangle(const TriangleTouch& touch, TouchState& state, double friction, double softening,
+bool drag_triangle(TriangleTouch& touch, TouchState& state, double friction, double softening,
                    const SurfaceNodes& surface, const TouchForces& on,
                    RigidShadow& rigid) noexcept {
     if (touch.press.force == 0)
@@ -119,6 +119,7 @@ bool drag_triangle(const TriangleTouch& touch, TouchState& state, double frictio
             (1 + ahead.compliance * on.dt * (k * on.dt + c));
     }
     clamp_length(f, grip);
+    touch.grip = f;
     share(touch, surface, -f, on.force);
     rigid.add({f, (touch.at.point - rigid.motion().pose.position).cross(f)});
     return true;

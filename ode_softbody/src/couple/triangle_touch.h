@@ -28,11 +28,12 @@ struct TouchState {
 struct TriangleTouch {
     int triangle;
     TrianglePoint at;
-    double depth;       ///< [m]
-    Vec3 slip;          ///< of the rigid against the soft side, half a substep ago [m/s]
-    double damping = 0; ///< [N s/m]
-    double owed = 0;    ///< see EnergyBook [J]
-    Press press = {};   ///< so far
+    double depth;             ///< [m]
+    Vec3 slip;                ///< of the rigid against the soft side, half a substep ago [m/s]
+    double damping = 0;       ///< [N s/m]
+    double owed = 0;          ///< see EnergyBook [J]
+    Press press = {};         ///< so far
+    Vec3 grip = Vec3::Zero(); ///< friction on the rigid side [N]
 };
 
 /// What a substep's contacts act on. The soft side's forces hold everything else that acts.
@@ -78,10 +79,15 @@ void sweep_triangle(TriangleTouch& touch, const TouchState& state, const Surface
 void enter_book(const TriangleTouch& touch, TouchState& state, const SurfaceNodes& surface,
                 const TouchForces& on, const RigidResponse& rigid) noexcept;
 
+/// All that the rigid side gets of a touch, once friction is known [N].
+inline Vec3 force_on_rigid(const TriangleTouch& touch, const TouchState& state) noexcept {
+    return touch.press.force * state.normal + touch.grip;
+}
+
 /// Adds friction to both sides, opposite at one point.
 /// @param softening  on its spring and dashpot, whose explicit step it keeps stable
 /// @return whether the touch bears.
-bool drag_triangle(const TriangleTouch& touch, TouchState& state, double friction, double softening,
+bool drag_triangle(TriangleTouch& touch, TouchState& state, double friction, double softening,
                    const SurfaceNodes& surface, const TouchForces& on, RigidShadow& rigid) noexcept;
 
 } // namespace ode::soft

@@ -139,6 +139,9 @@ void Attachments::bind(RigidExchange& exchange, double dt) noexcept {
                         (bound + velocity)
                             .dot(soft.mass()[n] * (bound - velocity) - dt * soft.force_[n]) /
                         2);
+                    exchange.note_push(soft, anchor.shadow,
+                                       {soft.state_.position[n],
+                                        soft.force_[n] - soft.mass()[n] / dt * (bound - velocity)});
                     velocity = bound;
                 }
     }

@@ -1,11 +1,24 @@
 #pragma once
 
-#include "base/types.h"
+#include "collide/rigid_pose.h"
+#include "couple/rigid_push.h"
+
+#include <ode/common.h>
+
+#include <span>
 
 namespace ode::soft {
 
 class Body;
 class SoftWorld;
+
+/// What a soft body did to a rigid one in a substep, at one place.
+struct PushView {
+    dBodyID rigid;
+    const Body* soft;
+    Pose pose; ///< of the rigid body, as the substep began
+    RigidPush push;
+};
 
 /// One body at the end of a substep; borrowed, dies on return. Times only grow, and each view
 /// begins where the last one ended: when a step is redone because a body went unstable, what was
@@ -31,6 +44,12 @@ public:
     /// nodes are brought up to date for this observer, at the rate that audio asks for.
     virtual bool takes_modes() const noexcept { return false; }
     virtual void on_substep(const SubstepView& view) noexcept = 0;
+    /// Whether on_pushes() wants to be called; asked once a step.
+    virtual bool wants_pushes() const noexcept { return false; }
+    /// Before the bodies are shown, where soft bodies pushed rigid ones in the substep that ends at
+    /// `time` and took `dt` [s]. Borrowed.
+    virtual void on_pushes(double /*time*/, double /*dt*/,
+                           std::span<const PushView> /*pushes*/) noexcept {}
     /// After the substeps of a step, before ODE's own. @param time  at the step's end [s].
     virtual void on_step(SoftWorld& world, double time) noexcept = 0;
     /// After ODE's own step.

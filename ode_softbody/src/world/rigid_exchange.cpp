@@ -142,6 +142,7 @@ void RigidExchange::look_ahead(bool first) noexcept {
 
 ContactTally RigidExchange::add_forces(double dt) noexcept {
     ContactTally sum;
+    push_.clear();
     bool bears = false;
     bool drags = rigid_.size() != 0;
     for (Contact& contact : contact_) {
@@ -158,8 +159,14 @@ ContactTally RigidExchange::add_forces(double dt) noexcept {
             continue;
         bears = true;
         RigidShadow& shadow = shadow_[contact.shadow];
-        if (!shadow.can_move())
-            contact.law->push_at_once(body.state_.position, forces_on(body, dt), shadow);
+        if (!shadow.can_move()) {
+            const bool noted = watched_ && shadow.body();
+            felt_.clear();
+            contact.law->push_at_once(body.state_.position, forces_on(body, dt), shadow,
+                                      noted ? &felt_ : nullptr);
+            for (const RigidPush& push : felt_)
+                note_push(body, contact.shadow, push);
+        }
         response_[contact.shadow].wanted = true;
     }
     if (!bears && rigid_.size() == 0)
@@ -200,7 +207,22 @@ ContactTally RigidExchange::add_forces(double dt) noexcept {
             contact.law->enter_books(forces_on(*contact.body, dt), response_[contact.shadow]);
     for (RigidResponse& response : response_)
         response.wanted = false;
+    for (const Contact& contact : contact_)
+        if (watched_ && contact.law->is_touching())
+            note_pushes(contact);
     return sum;
+}
+
+void RigidExchange::note_pushes(const Contact& contact) noexcept {
+    contact.law->each_push([&](const Vec3& place, const Vec3& force) {
+        note_push(*contact.body, contact.shadow, {place, force});
+    });
+}
+
+void RigidExchange::note_push(const Body& soft, std::size_t shadow, const RigidPush& push) {
+    const RigidShadow& rigid = shadow_[shadow];
+    if (watched_ && rigid.body() && push.force.squaredNorm() > 0)
+        push_.push_back({rigid.body(), &soft, rigid.motion().pose, push});
 }
 
 double RigidExchange::sweep(double dt) noexcept {

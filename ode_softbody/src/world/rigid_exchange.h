@@ -4,6 +4,7 @@
 #include "couple/rigid_contacts.h"
 #include "couple/rigid_response.h"
 #include "couple/rigid_shadow.h"
+#include "world/observer.h"
 #include "world/rigid_islands.h"
 
 #include <memory>
@@ -29,6 +30,12 @@ public:
     /// Snapshots the shapes that the bodies have met. @param dt  substep [s].
     void begin_step(dWorldID world, std::span<const std::unique_ptr<Body>> bodies, double h,
                     double dt);
+
+    /// Whether pushes() are wanted in this step: else none are noted.
+    void watch_pushes(bool on) noexcept { watched_ = on; }
+    /// What soft bodies did to rigid ones in this substep: each place on its own.
+    std::span<const PushView> pushes() const noexcept { return push_; }
+    void note_push(const Body& soft, std::size_t shadow, const RigidPush& push);
 
     /// Adds contact forces to the bodies' forces and their reactions to the shadows.
     ContactTally add_forces(double dt) noexcept;
@@ -84,6 +91,7 @@ private:
     void meet_rigid(double h, double dt);
     std::ptrdiff_t index_of(dBodyID body) const noexcept; ///< -1: none
     Contact& contact_of(Body& body, dGeomID geom);
+    void note_pushes(const Contact& contact) noexcept;
     void wake_touched() noexcept;
     void enliven_touched() noexcept;
 
@@ -100,6 +108,9 @@ private:
     RigidContacts rigid_;
     ContactRecord record_;
     unsigned long rigid_bearing_ = 0;
+    bool watched_ = false;
+    std::vector<PushView> push_;
+    std::vector<RigidPush> felt_; ///< scratch
 };
 
 } // namespace ode::soft

@@ -228,6 +228,8 @@ bool SoftWorld::advance(double h, bool again) noexcept {
         any_rings_ && std::any_of(observer_.begin(), observer_.end(), [](const auto& o) {
             return o && o->wants_substeps() && !o->takes_modes();
         });
+    exchange_.watch_pushes(std::any_of(observer_.begin(), observer_.end(),
+                                       [](const auto& o) { return o && o->wants_pushes(); }));
     const double first = common_substep(h);
     attachments_.announce(exchange_);
     exchange_.begin_step(world_, body_, h, first);
@@ -253,8 +255,9 @@ bool SoftWorld::advance(double h, bool again) noexcept {
 }
 
 long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
-    const bool observed = std::any_of(observer_.begin(), observer_.end(),
-                                      [](const auto& o) { return o && o->wants_substeps(); });
+    const bool observed = std::any_of(observer_.begin(), observer_.end(), [](const auto& o) {
+        return o && (o->wants_substeps() || o->wants_pushes());
+    });
     long looked = 0;
     for (long i = 1; i <= substeps; ++i) {
         const bool look = i % kWatchInterval == 0 || i == 1 || i == substeps;
@@ -344,6 +347,11 @@ void SoftWorld::show_substep(double time, double dt) noexcept {
     }
     shown_ = time;
     const auto start = Clock::now();
+    if (!exchange_.pushes().empty())
+        each_observer([&](Observer& observer) {
+            if (observer.wants_pushes())
+                observer.on_pushes(time, dt, exchange_.pushes());
+        });
     for (const auto& body : body_) {
         if (!body->moves())
             continue;

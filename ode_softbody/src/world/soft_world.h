@@ -152,8 +152,8 @@ private:
         calling_ = outer;
         drop_past_observers();
     }
-    void drop_past_observers() noexcept; ///< unless one may be on the stack
-    void show_substep(double time, double dt) noexcept;
+    void drop_past_observers() noexcept;                ///< unless one may be on the stack
+    void show_substep(double time, double dt) noexcept; ///< to who wants such
     void watch_step() noexcept;
     void watch_move() noexcept;
 

@@ -127,9 +127,10 @@ DSOUND_API int dSoundSetAlarm(dSoundWorldID world, dSoundAlarmCallback* callback
  * materials and curvatures, at the time within the step that depth and closing speed tell. That
  * time lies in the step before; while there are such bodies all sound therefore leaves one step of
  * ODE's later, not later in itself. Contacts that only bear load are silent until
- * they slide or roll (surface.h). Where joints are not
- * seen being made (dSoftHookThreading) the place is found by asking the geoms again, or from force
- * and torque where they have none.
+ * they slide or roll (surface.h). What soft bodies do to it is no joint's: the voice gets that
+ * force as it goes from substep to substep. Where joints are not seen being made
+ * (dSoftHookThreading) the place is found by asking the geoms again, or from force and torque where
+ * they have none.
  *
  * Lives until dSoundModalDestroy(), the sound world's end, or unheard from the body's end on.
  * @return NULL after a sentence: no sound world over a soft world of the body's world, modes can't

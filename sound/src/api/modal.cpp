@@ -41,7 +41,7 @@ dSoundModalID dSoundModalCreate(dBodyID body, dSoftMeshID mesh, const dSoftSolid
         auto id = std::make_unique<dxSoundModal>();
         world->modals.reserve(world->modals.size() + 1);
         id->owner = world;
-        id->rigid = world->world.rigid().add(body, model);
+        id->rigid = world->world.add_rigid(body, model);
         world->modals.push_back(id.get());
         return id.release();
     });

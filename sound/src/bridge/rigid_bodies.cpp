@@ -67,6 +67,7 @@ std::shared_ptr<RigidBody> RigidBodies::add(dBodyID body, std::shared_ptr<const 
 void RigidBodies::remove(RigidBody& body, Scene& scene) noexcept {
     scene.end_body(&body);
     scrapes_.forget(body);
+    pushes_.forget(body);
     dSoftRigidWatchDestroy(body.watch);
     body.body = nullptr;
     std::erase_if(body_, [&](const auto& own) { return own.get() == &body; });
@@ -106,6 +107,12 @@ StruckVoice& RigidBodies::voice(const RigidBody& body, Scene& scene, RigidModels
     if (StruckVoice* found = scene.find_struck(&body, body.place_in_scene))
         return *found;
     return scene.add_struck(&body, models.voice(body.model, scene.settings()));
+}
+
+void RigidBodies::feel(const dSoftRigidPushes& pushes, Scene& scene, RigidModels& models) {
+    pushes_.feel(
+        pushes, [this](dBodyID body) { return find(body); },
+        [&](RigidBody& own) -> StruckVoice& { return voice(own, scene, models); });
 }
 
 void RigidBodies::strike(RigidBody& body, const Vec3& point, const Vec3& impulse, double contact,
@@ -284,8 +291,11 @@ void RigidBodies::deal(Scene& scene, RigidModels& models) {
 void RigidBodies::end_step(double time, Scene& scene, RigidModels& models) {
     const double h = time - begin_;
     touches_.read(h);
+    pushes_.end_step(time, scene.settings().rate,
+                     [&](RigidBody& own) -> StruckVoice& { return voice(own, scene, models); });
     for (const auto& own : body_) {
         own->bearings = 0;
+        own->heard_soft = true;
         std::fill(own->damping.begin(), own->damping.end(), 0.0f);
     }
     for (const auto& own : body_)

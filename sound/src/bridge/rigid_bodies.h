@@ -4,6 +4,7 @@
 #include "bridge/rigid_model.h"
 #include "bridge/rigid_scrapes.h"
 #include "bridge/rigid_touch.h"
+#include "bridge/soft_pushes.h"
 #include "mix/scene.h"
 
 #include <memory>
@@ -33,6 +34,7 @@ struct RigidBody {
     static constexpr int kMostBearings = 4;
     int bearings = 0;                       ///< in this step
     bool damped = false;                    ///< in the step before
+    bool heard_soft = false;                ///< what pushes it is news
     std::vector<float> damping;             ///< of each mode by them [1/s]
     std::vector<float> shape;               ///< scratch
     mutable std::size_t place_in_scene = 0; ///< likely
@@ -79,6 +81,16 @@ public:
     /// began.
     void end_step(double time, Scene& scene, RigidModels& models);
 
+    /// What soft bodies did in a substep.
+    void feel(const dSoftRigidPushes& pushes, Scene& scene, RigidModels& models);
+    void forget(dSoftBodyID soft) noexcept { pushes_.forget(soft); }
+    /// Nobody listens any more, or to something else.
+    void fall_silent() noexcept {
+        pushes_.clear();
+        for (const auto& own : body_)
+            own->heard_soft = false;
+    }
+
     /// World frame; `time` is now [s].
     void strike(RigidBody& body, const Vec3& point, const Vec3& impulse, double contact,
                 double time, Scene& scene, RigidModels& models) const;
@@ -102,6 +114,7 @@ private:
     Geoms geoms_;
     RigidTouches touches_;
     RigidScrapes scrapes_;
+    SoftPushes pushes_;
     Stroke stroke_;       ///< not dealt yet
     double begin_ = 0.0;  ///< of the present step [s]
     double before_ = 0.0; ///< length of the step before [s]

@@ -48,6 +48,10 @@ void SoundWorld::observe() {
         observer.on_modal = [](void* data, const dSoftModalState* state) {
             self(data).on_modal(*state);
         };
+    if (!rigid_.empty())
+        observer.on_rigid_pushes = [](void* data, const dSoftRigidPushes* pushes) {
+            self(data).on_rigid_pushes(*pushes);
+        };
     observer.on_step = [](void* data, dSoftWorldID, dReal time) { self(data).on_step(time); };
     observer.on_moved = [](void* data, dSoftWorldID, dReal time) { self(data).on_moved(time); };
     observer.on_body_end = [](void* data, dSoftBodyID body) { self(data).on_body_end(body); };
@@ -82,6 +86,7 @@ void SoundWorld::ignore() noexcept {
     if (observing_ && world_)
         dSoftWorldRemoveObserver(world_, this);
     observing_ = false;
+    rigid_.fall_silent();
 }
 
 Listener& SoundWorld::add_listener() {
@@ -182,6 +187,28 @@ void SoundWorld::on_modal(const dSoftModalState& state) noexcept {
     }
 }
 
+std::shared_ptr<RigidBody> SoundWorld::add_rigid(dBodyID body,
+                                                 std::shared_ptr<const RigidModel> model) {
+    const bool first = rigid_.empty();
+    std::shared_ptr<RigidBody> made = rigid_.add(body, std::move(model));
+    if (first && observing_) { // from now on it matters what pushes rigid bodies
+        ignore();
+        observe();
+    }
+    return made;
+}
+
+void SoundWorld::on_rigid_pushes(const dSoftRigidPushes& pushes) noexcept {
+    if (failed_)
+        return;
+    try {
+        cost_.run([&] { rigid_.feel(pushes, scene_, rigid_models_); });
+    } catch (const std::exception& e) {
+        failed_ = true;
+        dMessage(0, "sound stops here: %s", e.what());
+    }
+}
+
 void SoundWorld::strike(RigidBody& body, const Vec3& point, const Vec3& impulse, double contact) {
     if (scene_.listeners() > 0 && body.body)
         rigid_.strike(body, point, impulse, contact, stepped_, scene_, rigid_models_);
@@ -245,6 +272,7 @@ void SoundWorld::raise(const void* key, double time, Alarm::Cause cause) {
 void SoundWorld::on_body_end(dSoftBodyID body) noexcept {
     alarm_.forget(body);
     pace_.forget(body);
+    rigid_.forget(body);
     scene_.end_body(body);
 }
 

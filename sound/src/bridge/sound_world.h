@@ -43,6 +43,7 @@ public:
     void remove_listener(Listener& listener) noexcept;
 
     RigidBodies& rigid() noexcept { return rigid_; }
+    std::shared_ptr<RigidBody> add_rigid(dBodyID body, std::shared_ptr<const RigidModel> model);
     /// A blow that no joint deals, at the present time. World frame.
     void strike(RigidBody& body, const Vec3& point, const Vec3& impulse, double contact);
     RigidModels& rigid_models() noexcept { return rigid_models_; }
@@ -58,6 +59,7 @@ public:
     // What the soft world tells; public for tests, which have none.
     void on_substep(const dSoftSubstep& substep) noexcept;
     void on_modal(const dSoftModalState& state) noexcept;
+    void on_rigid_pushes(const dSoftRigidPushes& pushes) noexcept;
     void on_step(double time) noexcept;
     void on_moved(double time) noexcept;
     void on_body_end(dSoftBodyID body) noexcept;

@@ -65,6 +65,7 @@ struct ClickColumns {
     double forget = 0.0;             ///< [1/s]
     double radius = 0.0;             ///< of the sphere that the body is likened to [m]
     double speed = 343.0;            ///< of sound [m/s]
+    double omega = 0.0, decay = 0.0; ///< of W [rad/s], [1/s]
 };
 
 /// Modes of a body at successive samples of the grid. Borrowed. A body that rings freely is told in

@@ -20,19 +20,6 @@ std::size_t padded(std::size_t columns) {
     return (columns + kModeLanes - 1) / kModeLanes * kModeLanes;
 }
 
-/// What a change of the body's velocity gives the click's columns: U jumps, V and V' don't.
-void jolt(const StruckVoiceModel& model, const RigidSound::Six& jerk,
-          std::array<float, kModeLanes>& click, std::array<float, kModeLanes>& rate) noexcept {
-    const Vec3 all = model.rigid.dipole * jerk;
-    const double part = model.click.share, forget = model.click.forget;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double own = all[static_cast<int>(i)];
-        click[i] = static_cast<float>(-part * own);
-        rate[i] = static_cast<float>(part * forget * own);
-        click[3 + i] = static_cast<float>(own);
-    }
-}
-
 } // namespace
 
 void find_steps(StruckVoiceModel& model, double rate) {
@@ -56,10 +43,14 @@ void find_steps(StruckVoiceModel& model, double rate) {
     // swings by itself. What is faster than half a sample is taken to be as fast.
     const double T = std::max(model.rigid.radius / model.rigid.speed, 0.5 * t);
     const double forget = 1.0 / kMemory;
-    model.click = {1.0 / (1.0 - T * forget * (1.0 - 0.5 * T * forget)), forget, model.rigid.radius,
-                   model.rigid.speed};
+    model.click = {1.0 / (1.0 - T * forget * (1.0 - 0.5 * T * forget)),
+                   forget,
+                   model.rigid.radius,
+                   model.rigid.speed,
+                   std::numbers::sqrt2 / T,
+                   1.0 / T};
     for (std::size_t i = 0; i < 3; ++i) {
-        column(i, std::numbers::sqrt2 / T, 1.0 / T);
+        column(i, model.click.omega, model.click.decay);
         model.step[3 + i] = static_cast<float>(std::expm1(-forget * t));
     }
     for (std::size_t k = 0; k < n; ++k)
@@ -77,68 +68,6 @@ StruckVoice::StruckVoice(std::shared_ptr<const StruckVoiceModel> model, double r
     for (Drive& drive : drive_)
         drive.push.assign(model_->columns, 0.0f);
     damped_step_ = model_->step;
-}
-
-void StruckVoice::give_rest(const Pulse& pulse) noexcept {
-    const auto rest = static_cast<float>(1.0 - pulse.given);
-    const auto click_rest = static_cast<float>(1.0 - pulse.click_given);
-    for (std::size_t k = 0; k < pulse.push.size(); ++k)
-        rate_of_[k] += rest * pulse.push[k];
-    for (std::size_t k = 0; k < kClick; ++k) {
-        amplitude_[k] += click_rest * pulse.click[k];
-        rate_of_[k] += click_rest * pulse.click_rate[k];
-    }
-}
-
-void StruckVoice::strike(double time, double duration, std::span<const float> push,
-                         const RigidSound::Six& jerk) noexcept {
-    if (pulses_ == kMostPulses) {
-        // All that is left of the oldest at once.
-        give_rest(pulse_.front());
-        std::rotate(pulse_.begin(), pulse_.begin() + 1, pulse_.end());
-        --pulses_;
-    }
-    Pulse& made = pulse_[pulses_++];
-    made.begin = time;
-    made.duration = duration;
-    made.given = made.click_given = 0.0;
-    jolt(*model_, jerk, made.click, made.click_rate);
-    for (std::size_t k = 0; k < model_->omega.size(); ++k) {
-        const double half = 0.5 * model_->omega[k] / rate_;
-        // What the rate can't carry is left out.
-        made.push[kClick + k] =
-            half < 0.49 * std::numbers::pi
-                ? static_cast<float>(static_cast<double>(push[k]) * half / std::sin(half))
-                : 0.0f;
-    }
-    active_ = model_->columns;
-}
-
-void StruckVoice::drive(std::int64_t begin, std::span<const float> series,
-                        std::span<const float> push, const RigidSound::Six& jerk) noexcept {
-    if (drives_ == kMostDrives)
-        return;
-    Drive& made = drive_[drives_++];
-    made.begin = begin;
-    made.series = series;
-    for (std::size_t k = 0; k < push.size(); ++k)
-        made.push[kClick + k] = model_->omega[k] < 0.98 * std::numbers::pi * rate_ ? push[k] : 0.0f;
-    jolt(*model_, jerk, made.click, made.click_rate);
-    active_ = model_->columns;
-}
-
-void StruckVoice::damp(std::span<const float> decay) noexcept {
-    damped_ = !decay.empty();
-    const std::size_t all = model_->columns;
-    for (std::size_t k = 0; k < decay.size(); ++k) {
-        // The step's matrix times g, of which changes are kept: g (1 + a) - 1 = a + less (1 + a).
-        const auto less = static_cast<float>(std::expm1(-static_cast<double>(decay[k]) / rate_));
-        for (std::size_t row = 0; row < 4; ++row) {
-            const std::size_t at = row * all + kClick + k;
-            const float own = model_->step[at];
-            damped_step_[at] = own + less * (own + (row == 0 || row == 3 ? 1.0f : 0.0f));
-        }
-    }
 }
 
 void StruckVoice::ring(std::int64_t first, int samples) noexcept {
@@ -182,12 +111,25 @@ void StruckVoice::ring(std::int64_t first, int samples) noexcept {
         push[pushes++] = {row, drive.click.data(), drive.click_rate.data(), kModeLanes};
     }
     const float* const step = damped_ ? damped_step_.data() : model_->step.data();
-    if (pushes > 0)
-        kernels().ring_pushed(columns, samples, step, stride, amplitude_.data(), rate_of_.data(),
-                              q_rows, v_rows, push, pushes);
-    else
-        kernels().ring(columns, samples, step, stride, amplitude_.data(), rate_of_.data(), q_rows,
-                       v_rows);
+    // From kick to kick.
+    for (int done = 0; done < samples;) {
+        const std::int64_t kick = kicks_ ? kicks_->next() : INT64_MAX;
+        const int upto = static_cast<int>(std::clamp<std::int64_t>(
+            kick - first + 1, done + 1, static_cast<std::int64_t>(samples)));
+        float *const q = q_rows + done * columns, *const v = v_rows + done * columns;
+        if (pushes > 0)
+            kernels().ring_pushed(columns, upto - done, step, stride, amplitude_.data(),
+                                  rate_of_.data(), q, v, push, pushes);
+        else
+            kernels().ring(columns, upto - done, step, stride, amplitude_.data(), rate_of_.data(),
+                           q, v);
+        for (int p = 0; p < pushes; ++p)
+            push[p].series += upto - done;
+        done = upto;
+        if (kick <= first + done - 1)
+            take_kicks(first + done - 1, q_rows + (done - 1) * columns,
+                       v_rows + (done - 1) * columns);
+    }
     std::size_t kept = 0;
     for (std::size_t p = 0; p < pulses_; ++p)
         if (pulse_[p].given < 1.0) {
@@ -196,6 +138,18 @@ void StruckVoice::ring(std::int64_t first, int samples) noexcept {
             ++kept;
         }
     pulses_ = kept;
+}
+
+void StruckVoice::take_kicks(std::int64_t sample, float* q_row, float* v_row) noexcept {
+    const auto take = [&](Kicks& from, std::size_t begin) {
+        for (; from.next() <= sample; from.pop())
+            for (std::size_t k = 0; k < from.columns() && begin + k < active_; ++k) {
+                q_row[begin + k] = amplitude_[begin + k] += from.q()[k];
+                v_row[begin + k] = rate_of_[begin + k] += from.v()[k];
+            }
+    };
+    take(kicks_->modes, kClick);
+    take(kicks_->click, 0);
 }
 
 void StruckVoice::run(std::int64_t last, const FramePose& to, bool fading, BlockSink& out) {
@@ -255,7 +209,7 @@ bool StruckVoice::clicks() const noexcept {
 }
 
 void StruckVoice::settle() noexcept {
-    if (pulses_ > 0)
+    if (pulses_ > 0 || (kicks_ && !kicks_->is_empty()))
         return;
     std::size_t heard =
         std::min(active_, kClick + model_->omega.size()) - std::min(active_, kClick);
@@ -286,6 +240,8 @@ void StruckVoice::advance(const FramePose& pose, BlockSink& out) {
         drives_ = 0;
         return;
     }
+    if (kicks_)
+        kicks_->close(pose.time);
     if (is_silent())
         done_ = std::max(done_, last);
     else
@@ -297,6 +253,7 @@ void StruckVoice::advance(const FramePose& pose, BlockSink& out) {
 
 void StruckVoice::finish(BlockSink& out) {
     drives_ = 0; // what they point at may have gone
+    kicks_.reset();
     if (is_silent())
         return;
     FramePose end = pose_;

@@ -2,11 +2,14 @@
 
 #include "dsp/kernels.h"
 #include "dsp/storage.h"
+#include "source/kicks.h"
 #include "source/modal_voice.h"
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
+#include <memory>
 
 namespace ode::sound {
 
@@ -67,6 +70,11 @@ public:
     /// @param push, jerk  as in strike(), of 1 N s.
     void drive(std::int64_t begin, std::span<const float> series, std::span<const float> push,
                const RigidSound::Six& jerk) noexcept;
+    /// An impulse of a force that is known from moment to moment: at `time` [s], which is not
+    /// before that of the last call. What lies before the samples given off already comes at once.
+    /// May allocate.
+    /// @param push, jerk  as in strike().
+    void push(double time, std::span<const double> push, const RigidSound::Six& jerk);
     /// Decays of the modes beside their own until the next call [1/s]. Empty: none.
     void damp(std::span<const float> decay) noexcept;
 
@@ -75,7 +83,9 @@ public:
     /// Falls silent within ModalVoice::kFadeTime.
     void finish(BlockSink& out);
 
-    bool is_silent() const noexcept { return active_ == 0 && pulses_ == 0 && drives_ == 0; }
+    bool is_silent() const noexcept {
+        return active_ == 0 && pulses_ == 0 && drives_ == 0 && (!kicks_ || kicks_->is_empty());
+    }
     const StruckVoiceModel& model() const noexcept { return *model_; }
     double energy() const noexcept; ///< of all modes [J]
     std::span<const float> rates() const noexcept {
@@ -97,12 +107,28 @@ private:
         alignas(64) std::array<float, kModeLanes> click{}, click_rate{};
     };
 
+    /// Of push(): modes later than the click by lead_.
+    struct Given {
+        Kicks modes, click;
+        std::vector<double> push; ///< scratch
+
+        std::int64_t next() const noexcept { return std::min(modes.next(), click.next()); }
+        bool is_empty() const noexcept { return modes.is_empty() && click.is_empty(); }
+        void close(double time) {
+            modes.close(time);
+            click.close(time);
+        }
+    };
+
     void run(std::int64_t last, const FramePose& to, bool fading, BlockSink& out);
     void send(std::int64_t first, int samples, const FramePose& to, bool fading, BlockSink& out);
     void give_rest(const Pulse& pulse) noexcept;
     void ring(std::int64_t first, int samples) noexcept;
+    /// Up to a sample; to the state, and to the sample's row.
+    void take_kicks(std::int64_t sample, float* q_row, float* v_row) noexcept;
     void settle() noexcept;
-    bool clicks() const noexcept; ///< the body as a whole is heard
+    bool carries(double omega) const noexcept; ///< the rate does
+    bool clicks() const noexcept;              ///< the body as a whole is heard
 
     std::shared_ptr<const StruckVoiceModel> model_;
     double rate_;
@@ -112,7 +138,8 @@ private:
     std::size_t pulses_ = 0;
     std::array<Drive, kMostDrives> drive_; ///< drives_ of them
     std::size_t drives_ = 0;
-    AlignedFloats damped_step_; ///< as StruckVoiceModel::step, while contacts damp
+    std::unique_ptr<Given> kicks_; ///< null: nothing was pushed yet
+    AlignedFloats damped_step_;    ///< as StruckVoiceModel::step, while contacts damp
     bool damped_ = false;
     std::size_t active_ = 0; ///< columns from the first on that may be heard
     bool begun_ = false;
