@@ -52,8 +52,10 @@ public:
 
     /// Times that the device went away.
     unsigned long lost_devices() const noexcept { return lost_devices_; }
-    /// Length of one of the three buffers; 0 before open().
-    int buffer_frames() const noexcept { return stream_ ? stream_->buffer_frames() : 0; }
+    /// Frames that the device takes at a time; 0 before open().
+    std::size_t period() const noexcept { return stream_ ? stream_->period() : 0; }
+    /// Frames that it starts with.
+    std::size_t lead() const noexcept { return stream_ ? stream_->lead() : 0; }
 
 private:
     void feed() noexcept;

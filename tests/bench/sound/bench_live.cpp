@@ -1,6 +1,9 @@
 // softsound bench live [--seconds S] [--load]: latency and gaps of the live path on OpenAL's null
 // back end, which keeps a sound card's pace, with the configuration that sound/src/sink/README.md
 // documents. --load keeps another thread busy all the time. Ends with 1 when a mark is missed.
+// Beside it a thread of the highest real-time priority sleeps for a millisecond at a time (where
+// that is permitted): what it is late by, the machine itself stood still (a virtual one is kept
+// waiting by its host). No program bridges a stand-still longer than its delay.
 
 #include "sink/openal_sink.h"
 
@@ -12,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <sched.h>
 #include <string>
 #include <thread>
 #include <unistd.h>
@@ -22,6 +26,26 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr int kRate = 48000, kStep = 200; // frames of one step, 4.2 ms
 constexpr double kDelay = 0.018;          // accepted ahead [s]
+
+struct StandStill {
+    int count = 0;      ///< longer than 10 ms
+    double longest = 0; ///< [ms]
+};
+
+/// Beside everything else, until `over`.
+void watch(const std::atomic<bool>& over, StandStill& found) {
+    sched_param parameters{};
+    parameters.sched_priority = sched_get_priority_max(SCHED_FIFO);
+    sched_setscheduler(0, SCHED_FIFO, &parameters);
+    for (auto before = Clock::now(); !over;) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        const auto now = Clock::now();
+        const double late = std::chrono::duration<double, std::milli>(now - before).count() - 1.0;
+        found.count += late > 10.0;
+        found.longest = std::max(found.longest, late);
+        before = now;
+    }
+}
 
 int run(double seconds, bool load) {
     const std::string config = "/tmp/ode_sound_live." + std::to_string(getpid());
@@ -40,6 +64,8 @@ int run(double seconds, bool load) {
         while (load && !over)
             ++work;
     });
+    StandStill still;
+    std::thread watching([&] { watch(over, still); });
     std::vector<float> frames(2 * kStep);
     std::size_t most = 0;
     const auto end = Clock::now() + std::chrono::duration<double>(seconds);
@@ -55,9 +81,10 @@ int run(double seconds, bool load) {
     const unsigned long gaps = sink.underruns();
     over = true;
     busy.join();
-    std::printf("| %.0f s%s | 3 x %d | %.1f | %.1f | %lu |\n", seconds,
-                load ? ", one core loaded" : "", sink.buffer_frames(), latency,
-                1e3 * static_cast<double>(most) / kRate, gaps);
+    watching.join();
+    std::printf("| %.0f s%s | %zu | %.1f | %.1f | %lu | %d, %.1f |\n", seconds,
+                load ? ", one core loaded" : "", sink.period(), latency,
+                1e3 * static_cast<double>(most) / kRate, gaps, still.count, still.longest);
     const bool kept = latency <= 20.0 && gaps == 0;
     std::printf("\nmarks: mean latency <= 20 ms, no underrun%s\n", kept ? "" : ": MISSED");
     sink.close();
@@ -80,7 +107,8 @@ int main(int argc, char** argv) {
             return help ? 0 : 1;
         }
     }
-    std::printf("| run | queue [frames] | mean latency [ms] | longest [ms] | underruns |\n"
-                "|---|---|---|---|---|\n");
+    std::printf("| run | period [frames] | mean latency [ms] | longest [ms] | underruns | "
+                "stand-stills > 10 ms, "
+                "longest [ms] |\n|---|---|---|---|---|---|\n");
     return run(seconds, load);
 }
