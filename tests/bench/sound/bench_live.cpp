@@ -1,9 +1,9 @@
 // softsound bench live [--seconds S] [--load]: latency and gaps of the live path on OpenAL's null
 // back end, which keeps a sound card's pace, with the configuration that sound/src/sink/README.md
 // documents. --load keeps another thread busy all the time. Ends with 1 when a mark is missed.
-// Beside it a thread of the highest real-time priority sleeps for a millisecond at a time (where
-// that is permitted): what it is late by, the machine itself stood still (a virtual one is kept
-// waiting by its host). No program bridges a stand-still longer than its delay.
+// Beside it a thread of the highest real-time priority on each processor sleeps for a millisecond
+// at a time (where that is permitted): what it is late by, that processor itself stood still (a
+// virtual one is kept waiting by its host). No program bridges a stand-still longer than its delay.
 
 #include "sink/openal_sink.h"
 
@@ -33,7 +33,11 @@ struct StandStill {
 };
 
 /// Beside everything else, until `over`.
-void watch(const std::atomic<bool>& over, StandStill& found) {
+void watch(unsigned processor, const std::atomic<bool>& over, StandStill& found) {
+    cpu_set_t here;
+    CPU_ZERO(&here);
+    CPU_SET(processor, &here);
+    sched_setaffinity(0, sizeof here, &here);
     sched_param parameters{};
     parameters.sched_priority = sched_get_priority_max(SCHED_FIFO);
     sched_setscheduler(0, SCHED_FIFO, &parameters);
@@ -64,8 +68,11 @@ int run(double seconds, bool load) {
         while (load && !over)
             ++work;
     });
-    StandStill still;
-    std::thread watching([&] { watch(over, still); });
+    const unsigned processors = std::max(std::thread::hardware_concurrency(), 1U);
+    std::vector<StandStill> still(processors);
+    std::vector<std::thread> watching;
+    for (unsigned i = 0; i < processors; ++i)
+        watching.emplace_back([&, i] { watch(i, over, still[i]); });
     std::vector<float> frames(2 * kStep);
     std::size_t most = 0;
     const auto end = Clock::now() + std::chrono::duration<double>(seconds);
@@ -81,10 +88,15 @@ int run(double seconds, bool load) {
     const unsigned long gaps = sink.underruns();
     over = true;
     busy.join();
-    watching.join();
+    StandStill all;
+    for (unsigned i = 0; i < processors; ++i) {
+        watching[i].join();
+        all.count += still[i].count;
+        all.longest = std::max(all.longest, still[i].longest);
+    }
     std::printf("| %.0f s%s | %zu | %.1f | %.1f | %lu | %d, %.1f |\n", seconds,
                 load ? ", one core loaded" : "", sink.period(), latency,
-                1e3 * static_cast<double>(most) / kRate, gaps, still.count, still.longest);
+                1e3 * static_cast<double>(most) / kRate, gaps, all.count, all.longest);
     const bool kept = latency <= 20.0 && gaps == 0;
     std::printf("\nmarks: mean latency <= 20 ms, no underrun%s\n", kept ? "" : ": MISSED");
     sink.close();
