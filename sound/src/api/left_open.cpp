@@ -23,7 +23,7 @@ public:
         for (dSoundWorldID world : worlds_)
             world->world.end();
         for (dSoundSinkID sink : sinks_)
-            sink->sink->close();
+            sink->close();
     }
 
     void add(dSoundWorldID world) {

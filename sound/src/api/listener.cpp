@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace ode::sound {
@@ -125,20 +126,69 @@ int dSoundListenerSetLimiter(dSoundListenerID listener, dReal ceiling) {
     });
 }
 
+namespace {
+
+/// Whether nobody but `listener` sends to the sink; else after a message.
+bool is_free(dSoundWorldID world, dSoundListenerID listener, dSoundSinkID sink,
+             const char* function) {
+    bool free = !sink->listeners;
+    for (dSoundListenerID other : world->listeners)
+        free = free && (other == listener || !other->listener->has_sink(*sink->sink));
+    if (!free)
+        dMessage(0,
+                 "%s: the sink serves another listener; one sink serves one listener, or several "
+                 "named at once by dSoundListenersAddSink()",
+                 function);
+    return free;
+}
+
+} // namespace
+
 int dSoundListenerAddSink(dSoundListenerID listener, dSoundSinkID sink) {
     require_id(listener, "dSoundListenerAddSink");
     require_id(sink, "dSoundListenerAddSink");
     return guarded("dSoundListenerAddSink", 0, [&] {
-        for (dSoundListenerID other : listener->owner->listeners)
-            if (other != listener && other->listener->has_sink(*sink->sink)) {
-                dMessage(0, "dSoundListenerAddSink: the sink serves another listener; one sink "
-                            "serves one listener");
-                return 0;
-            }
+        if (!is_free(listener->owner, listener, sink, "dSoundListenerAddSink"))
+            return 0;
         if (listener->listener->add_sink(sink->sink))
             return 1;
         dMessage(0, "dSoundListenerAddSink: %s", sink->sink->error());
         return 0;
+    });
+}
+
+int dSoundListenersAddSink(const dSoundListenerID* listeners, int count, dSoundSinkID sink) {
+    const char* const function = "dSoundListenersAddSink";
+    require_id(listeners, function);
+    require_id(sink, function);
+    return guarded(function, 0, [&] {
+        if (count < 1) {
+            dMessage(0, "%s: count is %d; name one listener or more", function, count);
+            return 0;
+        }
+        const std::span all(listeners, static_cast<std::size_t>(count));
+        std::vector<int> ears;
+        for (const dSoundListenerID& listener : all) {
+            require_id(listener, function);
+            if (listener->owner != all[0]->owner ||
+                std::find(all.begin(), all.end(), listener) < all.begin() + (&listener - &all[0])) {
+                dMessage(0, "%s: listener %d is %s; name listeners of one world, each once",
+                         function, static_cast<int>(&listener - &all[0]),
+                         listener->owner != all[0]->owner ? "of another world" : "named twice");
+                return 0;
+            }
+            ears.push_back(listener->listener->ears());
+        }
+        if (!is_free(all[0]->owner, nullptr, sink, function))
+            return 0;
+        auto joined = std::make_unique<SideBySide>(sink->sink, ears);
+        for (std::size_t i = 0; i < all.size(); ++i)
+            if (!all[i]->listener->add_sink(joined->parts()[i])) {
+                dMessage(0, "%s: %s", function, sink->sink->error());
+                return 0; // the parts end here, and whoever has one lets it go
+            }
+        sink->listeners = std::move(joined);
+        return 1;
     });
 }
 

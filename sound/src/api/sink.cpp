@@ -74,8 +74,9 @@ dSoundSinkID dSoundSinkCreateFileAs(const char* path, const dSoundFile* file) {
     require_id(file, __func__);
     dSoundFile own = dSoundFileDefault();
     std::memcpy(&own, file, std::min<std::size_t>(file->struct_size, sizeof own));
-    return create(__func__,
-                  [&] { return std::make_shared<FileSink>(path, own.bits, own.note != 0); });
+    return create(__func__, [&] {
+        return std::make_shared<FileSink>(path, own.bits, own.note != 0, own.speakers);
+    });
 }
 
 int dSoundSinkMark(dSoundSinkID sink, const char* text) {
@@ -129,7 +130,7 @@ void dSoundSinkDestroy(dSoundSinkID sink) {
     if (!sink)
         return;
     forget(sink);
-    sink->sink->close();
+    sink->close();
     delete sink;
 }
 

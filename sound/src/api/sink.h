@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sink/side_by_side.h"
 #include "sink/sink.h"
 
 #include <ode_sound/sound.h>
@@ -11,4 +12,11 @@
 /// them.
 struct dxSoundSink {
     std::shared_ptr<ode::sound::Sink> sink;
+    std::unique_ptr<ode::sound::SideBySide> listeners{}; ///< where it serves several
+
+    void close() {
+        if (listeners)
+            listeners->finish();
+        sink->close();
+    }
 };

@@ -1,6 +1,7 @@
 #include "sink/file_sink.h"
 
 #include <algorithm>
+#include <bit>
 #include <cctype>
 #include <cerrno>
 #include <cmath>
@@ -36,8 +37,15 @@ Encoding encoding_for(const std::string& path, int bits) {
                   (flac ? "24 or 16" : "32 (float), 24 or 16"));
 }
 
-std::unique_ptr<FileWriter> writer_for(const std::string& path, Encoding encoding) {
-    return ending_of(path) == ".wav" ? make_wav_writer(encoding) : make_flac_writer(encoding);
+std::unique_ptr<FileWriter> writer_for(const std::string& path, Encoding encoding,
+                                       std::uint32_t speakers) {
+    if (ending_of(path) == ".wav")
+        return make_wav_writer(encoding, speakers);
+    if (speakers != 0)
+        throw Refused("'" + path +
+                      "': .flac has an order of loudspeakers of its own for each "
+                      "number of channels; leave speakers 0 or end the path in .wav");
+    return make_flac_writer(encoding);
 }
 
 const char* cure(int error) noexcept {
@@ -70,8 +78,9 @@ const char* encoding_name(Encoding encoding) noexcept {
     return kNames[static_cast<int>(encoding)];
 }
 
-FileSink::FileSink(const std::string& path, int bits, bool note)
-    : path_(path), encoding_(encoding_for(path, bits)), writer_(writer_for(path, encoding_)) {
+FileSink::FileSink(const std::string& path, int bits, bool note, std::uint32_t speakers)
+    : path_(path), speakers_(speakers), encoding_(encoding_for(path, bits)),
+      writer_(writer_for(path, encoding_, speakers)) {
     if (note)
         note_.emplace(std::filesystem::path(path).replace_extension(".json").string());
     // O_NONBLOCK: a pipe without a reader would hold the program here.
@@ -101,6 +110,19 @@ bool FileSink::open(const Format& format) {
             "%s: already written with %d Hz and %d channels; make another sink for %d Hz and "
             "%d channels",
             path_.c_str(), format_.rate, format_.channels, format.rate, format.channels);
+        return false;
+    }
+    if (format.channels < 1 || format.channels > writer_->most_channels()) {
+        error_.set(
+            "%s: holds 1 to %d channels, not %d; write several files, or a .wav, which holds "
+            "4096",
+            path_.c_str(), writer_->most_channels(), format.channels);
+        return false;
+    }
+    if (speakers_ != 0 && std::popcount(speakers_) != format.channels) {
+        error_.set("%s: speakers 0x%x names %d loudspeakers for %d channels; set as many bits as "
+                   "channels, or 0",
+                   path_.c_str(), speakers_, std::popcount(speakers_), format.channels);
         return false;
     }
     format_ = format;

@@ -26,7 +26,9 @@ public:
     /// @throws Refused
     /// @param bits  32 (float), 24 or 16; 0: the format's own, 32 for .wav and 24 for .flac.
     /// @param note  write JSON beside it, named like it with ".json" for its ending.
-    explicit FileSink(const std::string& path, int bits = 0, bool note = false);
+    /// @param speakers  see wav_header(); .wav only.
+    explicit FileSink(const std::string& path, int bits = 0, bool note = false,
+                      std::uint32_t speakers = 0);
     FileSink(const FileSink&) = delete;
     FileSink& operator=(const FileSink&) = delete;
     ~FileSink() override { close(); }
@@ -51,6 +53,7 @@ private:
     void write_note() noexcept;
 
     std::string path_;
+    std::uint32_t speakers_;
     Encoding encoding_ = Encoding::kFloat32;
     std::optional<SideNote> note_;
     std::unique_ptr<FileWriter> writer_;

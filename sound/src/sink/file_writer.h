@@ -17,6 +17,8 @@ public:
     /// Makes all that was appended readable, should the program end here.
     virtual const char* checkpoint() noexcept = 0;
     virtual const char* finish() noexcept = 0;
+    /// Channels that the format can hold.
+    virtual int most_channels() const noexcept = 0;
     /// Whether samples beyond +-1 are clipped.
     virtual bool clips() const noexcept = 0;
     /// Whole frames that are in the file.
@@ -29,7 +31,8 @@ enum class Encoding { kFloat32, kInt24, kInt16 };
 const char* encoding_name(Encoding encoding) noexcept;
 
 /// RIFF/WAVE; RF64 (EBU Tech 3306) from 4 GiB on.
-std::unique_ptr<FileWriter> make_wav_writer(Encoding encoding);
+/// @param speakers  see wav_header()
+std::unique_ptr<FileWriter> make_wav_writer(Encoding encoding, std::uint32_t speakers = 0);
 /// FLAC of 24 or 16 bits, by libsndfile.
 std::unique_ptr<FileWriter> make_flac_writer(Encoding encoding);
 

@@ -56,6 +56,7 @@ public:
         file_ = nullptr;
         return errno_ != 0 ? std::strerror(errno_) : nullptr;
     }
+    int most_channels() const noexcept override { return 8; }
     bool clips() const noexcept override { return true; }
     std::uint64_t frames() const noexcept override { return frames_; }
 

@@ -17,7 +17,8 @@ static_assert(std::endian::native == std::endian::little, "WAV samples are littl
 
 class WavWriter final : public FileWriter {
 public:
-    explicit WavWriter(Encoding encoding) : encoding_(encoding), quantiser_(encoding) {}
+    WavWriter(Encoding encoding, std::uint32_t speakers)
+        : encoding_(encoding), speakers_(speakers), quantiser_(encoding) {}
 
     const char* begin(int descriptor, const Format& format) noexcept override {
         descriptor_ = descriptor;
@@ -51,17 +52,20 @@ public:
     }
 
     const char* checkpoint() noexcept override {
-        const auto header = wav_header(format_, frames_, encoding_);
+        const auto header = wav_header(format_, frames_, encoding_, speakers_);
         return put(header.data(), header.size(), 0);
     }
     const char* finish() noexcept override { return checkpoint(); }
+    /// A frame's bytes are told in 16 bits; blocks of kBlock samples hold a frame.
+    int most_channels() const noexcept override { return static_cast<int>(kBlock); }
     bool clips() const noexcept override { return encoding_ != Encoding::kFloat32; }
     std::uint64_t frames() const noexcept override { return frames_; }
 
 private:
     std::uint64_t end() const noexcept {
-        return kWavHeaderSize + frames_ * static_cast<std::uint64_t>(sample_bytes(encoding_)) *
-                                    static_cast<std::uint64_t>(format_.channels);
+        return (format_.channels > 2 || speakers_ != 0 ? kWideWavHeaderSize : kWavHeaderSize) +
+               frames_ * static_cast<std::uint64_t>(sample_bytes(encoding_)) *
+                   static_cast<std::uint64_t>(format_.channels);
     }
 
     /// pwrite(), which may write in parts. What was written of whole frames stays uncounted: the
@@ -83,6 +87,7 @@ private:
     static constexpr std::size_t kBlock = 4096; ///< samples converted at a time
 
     Encoding encoding_;
+    std::uint32_t speakers_;
     Quantiser quantiser_;
     int descriptor_ = -1;
     Format format_{1, 1};
@@ -91,8 +96,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<FileWriter> make_wav_writer(Encoding encoding) {
-    return std::make_unique<WavWriter>(encoding);
+std::unique_ptr<FileWriter> make_wav_writer(Encoding encoding, std::uint32_t speakers) {
+    return std::make_unique<WavWriter>(encoding, speakers);
 }
 
 } // namespace ode::sound

@@ -221,19 +221,26 @@ TEST(FileSink, FullDiskKeepsWhatWasWritten) {
 TEST(FileSink, HeaderGrowsIntoRf64BeyondFourGigabytes) {
     const test::Scratch scratch;
     const std::string path = scratch.file("long.wav");
-    constexpr std::uint64_t kBefore = (0xFFFFFFFEU - (kWavHeaderSize - 8)) / 8;
-    for (const std::uint64_t frames : {kBefore, kBefore + 1, std::uint64_t{600'000'000}}) {
-        const auto header = wav_header(kStereo, frames);
-        std::ofstream(path, std::ios::binary)
-            .write(reinterpret_cast<const char*>(header.data()), header.size());
-        std::filesystem::resize_file(path, header.size() + 8 * frames);
-        SF_INFO info{};
-        SNDFILE* file = sf_open(path.c_str(), SFM_READ, &info);
-        ASSERT_NE(file, nullptr) << sf_strerror(nullptr);
-        sf_close(file);
-        EXPECT_EQ(static_cast<std::uint64_t>(info.frames), frames);
-        EXPECT_EQ(info.format & SF_FORMAT_TYPEMASK,
-                  frames > kBefore ? SF_FORMAT_RF64 : SF_FORMAT_WAV);
+    for (const int channels : {2, 6}) {
+        const auto frame = 4U * static_cast<std::uint64_t>(channels);
+        const std::uint64_t before =
+            (0xFFFFFFFEU - ((channels == 2 ? kWavHeaderSize : kWideWavHeaderSize) - 8)) / frame;
+        for (const std::uint64_t frames : {before, before + 1, std::uint64_t{600'000'000}}) {
+            const auto header = wav_header({48000, channels}, frames);
+            std::ofstream(path, std::ios::binary)
+                .write(reinterpret_cast<const char*>(header.data()),
+                       static_cast<std::streamsize>(header.size()));
+            std::filesystem::resize_file(path, header.size() + frame * frames);
+            SF_INFO info{};
+            SNDFILE* file = sf_open(path.c_str(), SFM_READ, &info);
+            ASSERT_NE(file, nullptr) << sf_strerror(nullptr);
+            sf_close(file);
+            EXPECT_EQ(static_cast<std::uint64_t>(info.frames), frames);
+            EXPECT_EQ(info.channels, channels);
+            EXPECT_EQ(info.format & SF_FORMAT_TYPEMASK, frames > before ? SF_FORMAT_RF64
+                                                        : channels > 2  ? SF_FORMAT_WAVEX
+                                                                        : SF_FORMAT_WAV);
+        }
     }
 }
 
