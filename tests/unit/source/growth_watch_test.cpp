@@ -90,7 +90,8 @@ Call called(Chain chain) {
 }
 
 // Where all modes ring alike the first few that are unstable must outgrow all others before they
-// can be told from them; where a body rings in its low modes, as bodies do, there is time.
+// can be told from them, and two quotients take seven substeps, in which energy grows as much as it
+// likes (3e8 fold at 1.3); where a body rings in its low modes, as bodies do, there is time.
 TEST(GrowthWatch, CallsBeforeEnergyHasGrownTenfold) {
     for (const double share : {1.001, 1.003, 1.01, 1.03, 1.1, 1.3})
         for (const double drift : {0.0, 100.0}) {
@@ -99,10 +100,7 @@ TEST(GrowthWatch, CallsBeforeEnergyHasGrownTenfold) {
             std::printf("%g of the critical step: rings in low modes: called in substep %d, "
                         "energy x %.6f; in all alike: %d, x %.3g\n",
                         share, low.substep, low.energy, all.substep, all.energy);
-            // At 1.3 energy grows 22 fold a substep, and a call takes eight of them.
-            if (share < 1.2) {
-                EXPECT_LT(low.energy, 10.0) << share;
-            }
+            EXPECT_LT(low.energy, 10.0) << share;
             EXPECT_LT(all.substep, 100) << share;
         }
 }
