@@ -83,10 +83,9 @@ ContactPatch patch_of(const RigidTouch& touch, RigidBody* const side[2], const G
         if (side[i]) {
             const StruckSurface& surface = side[i]->model->surface;
             const RigidMotion& motion = touch.motion[i];
-            out.place[i] = surface.nearest(
-                motion.place_in_frame(touch.position),
-                motion.into_frame(i == 0 ? Vec3(-touch.normal) : touch.normal), side[i]->likely);
-            side[i]->likely = out.place[i].triangle;
+            out.place[i] =
+                side[i]->spots.find(surface, motion.place_in_frame(touch.position),
+                                    motion.into_frame(i == 0 ? Vec3(-touch.normal) : touch.normal));
             elastic[i] = side[i]->model->elastic;
             out.curvature += surface.curvature(out.place[i]);
             reach = std::max(reach, surface.radius());

@@ -56,7 +56,7 @@ std::shared_ptr<RigidBody> RigidBodies::add(dBodyID body, std::shared_ptr<const 
     made->watch = dSoftRigidWatchCreate(body);
     made->push.assign(model->omega.size(), 0.0f);
     made->damping.assign(model->omega.size(), 0.0f);
-    made->shape = made->damping;
+    made->shape.fill(made->damping);
     made->model = std::move(model);
     made->known.reserve(32);
     body_.push_back(made);
@@ -251,16 +251,22 @@ void RigidBodies::bear(const RigidTouch& touch, RigidBody* const side[2], const 
         const double nu = model.elastic.poisson;
         const double along = touch.friction == 0.0 ? 0.0 : 2.0 * (1.0 - nu) / (2.0 - nu);
         const std::pair<Vec3, double> way[] = {{n, 1.0}, {u, along}, {n.cross(u), along}};
-        for (const auto& [direction, part] : way) {
-            std::fill(side[i]->shape.begin(), side[i]->shape.end(), 0.0f);
-            model.surface.project(patch.place[i], direction, side[i]->shape);
-            for (std::size_t k = 0; k < model.omega.size(); ++k) {
-                const double w = model.omega[k];
-                const double held = part * stiffness * static_cast<double>(side[i]->shape[k]) *
-                                    static_cast<double>(side[i]->shape[k]);
-                side[i]->damping[k] +=
-                    static_cast<float>(0.5 * w * patch.loss * held / (w * w + held));
-            }
+        float held[3];
+        for (std::size_t w = 0; w < 3; ++w) {
+            held[w] = static_cast<float>(way[w].second * stiffness);
+            std::fill(side[i]->shape[w].begin(), side[i]->shape[w].end(), 0.0f);
+            if (way[w].second > 0.0)
+                model.surface.project(patch.place[i], way[w].first, side[i]->shape[w]);
+        }
+        const auto half_loss = static_cast<float>(0.5 * patch.loss);
+        const float *a = side[i]->shape[0].data(), *b = side[i]->shape[1].data(),
+                    *c = side[i]->shape[2].data(), *omega = model.omega_floats.data();
+        float* const damping = side[i]->damping.data();
+        for (std::size_t k = 0; k < model.omega.size(); ++k) {
+            const float w = omega[k], square = w * w;
+            const float x = held[0] * a[k] * a[k], y = held[1] * b[k] * b[k],
+                        z = held[2] * c[k] * c[k];
+            damping[k] += half_loss * w * (x / (square + x) + y / (square + y) + z / (square + z));
         }
     }
 }

@@ -5,8 +5,10 @@
 #include "bridge/rigid_scrapes.h"
 #include "bridge/rigid_touch.h"
 #include "bridge/soft_pushes.h"
+#include "bridge/spots.h"
 #include "mix/scene.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -29,16 +31,16 @@ struct RigidBody {
     };
     std::vector<Known> known;
     std::vector<float> push; ///< scratch, one a mode
-    int likely = 0;          ///< triangle that was touched last
+    Spots spots;             ///< where it was touched lately
     /// Contacts that damp it in one step at most; two hold it as well as ten.
     static constexpr int kMostBearings = 4;
-    int bearings = 0;                       ///< in this step
-    bool damped = false;                    ///< in the step before
-    bool heard_soft = false;                ///< what pushes it is news
-    std::vector<float> damping;             ///< of each mode by them [1/s]
-    std::vector<float> shape;               ///< scratch
-    mutable std::size_t place_in_scene = 0; ///< likely
-    unsigned long blows = 0;                ///< that it got
+    int bearings = 0;                        ///< in this step
+    bool damped = false;                     ///< in the step before
+    bool heard_soft = false;                 ///< what pushes it is news
+    std::vector<float> damping;              ///< of each mode by them [1/s]
+    std::array<std::vector<float>, 3> shape; ///< scratch, along three ways
+    mutable std::size_t place_in_scene = 0;  ///< likely
+    unsigned long blows = 0;                 ///< that it got
 };
 
 /// Blows that two bodies deal each other in one step and nearly at once: one pulse of the sum. What

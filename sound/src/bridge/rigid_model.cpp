@@ -73,6 +73,7 @@ std::shared_ptr<const RigidModel> make(dSoftMeshID given, const dSoftSolid& soli
             for (int axis = 0; axis < 3; ++axis)
                 model->shape.push_back(shape[stride * n + axis]);
     }
+    model->omega_floats.assign(model->omega.begin(), model->omega.end());
     model->surface = StruckSurface(std::move(node), std::move(own.triangle), model->shape);
     return model;
 }

@@ -14,10 +14,11 @@ namespace ode::sound {
 
 /// What rigid bodies of one shape and material share of their sound.
 struct RigidModel {
-    std::vector<double> omega; ///< undamped [rad/s], ascending
-    std::vector<double> decay; ///< [1/s]
-    StruckSurface surface;     ///< centre of mass at the origin, axes of the mesh
-    std::vector<double> shape; ///< x y z of the surface's nodes, mode after mode [kg^-1/2]
+    std::vector<double> omega;       ///< undamped [rad/s], ascending
+    std::vector<float> omega_floats; ///< the same
+    std::vector<double> decay;       ///< [1/s]
+    StruckSurface surface;           ///< centre of mass at the origin, axes of the mesh
+    std::vector<double> shape;       ///< x y z of the surface's nodes, mode after mode [kg^-1/2]
     Elastic elastic;
     double mass = 0.0;                                 ///< of the mesh [kg]
     double volume = 0.0;                               ///< [m^3]

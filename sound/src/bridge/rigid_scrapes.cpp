@@ -76,6 +76,23 @@ void RigidScrapes::aim(Contact& contact, const Bearing& bearing, const Travel& t
     }
 }
 
+bool RigidScrapes::has_moved(const Contact& contact) noexcept {
+    constexpr float kLittle = 1e-4f; // of the square: what steps by a per cent is not heard to
+    for (std::size_t s = 0; s < 2; ++s) {
+        const std::vector<float>&before = contact.before[s].push, &now = contact.now[s].push;
+        float off = 0.0f, all = 0.0f;
+        for (std::size_t k = 0; k < now.size(); ++k) {
+            off += (now[k] - before[k]) * (now[k] - before[k]);
+            all += now[k] * now[k];
+        }
+        const double jerk = (contact.now[s].jerk - contact.before[s].jerk).squaredNorm();
+        if (off > kLittle * all ||
+            jerk > static_cast<double>(kLittle) * contact.now[s].jerk.squaredNorm())
+            return true;
+    }
+    return false;
+}
+
 std::span<float> RigidScrapes::row(std::size_t samples) {
     if (used_ == series_.size())
         series_.emplace_back();
@@ -144,7 +161,7 @@ void RigidScrapes::end_step(double begin, double end, double rate, const Geoms& 
         aim(*known, bearing, travel, geoms);
         // One step may be an error of the solver's.
         if (!is_new)
-            drive(*known, true, first, samples, rate, voice);
+            drive(*known, has_moved(*known), first, samples, rate, voice);
     }
     if (samples > 0)
         std::erase_if(contact_, [&](Contact& own) {

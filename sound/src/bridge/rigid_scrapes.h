@@ -48,6 +48,8 @@ private:
     };
     Contact* find(const Bearing& bearing) noexcept;
     void aim(Contact& contact, const Bearing& bearing, const Travel& travel, const Geoms& geoms);
+    /// By so much, since the step before, that the place should not step.
+    static bool has_moved(const Contact& contact) noexcept;
     std::span<float> row(std::size_t samples);
     void drive(Contact& contact, bool moved, std::int64_t begin, std::size_t samples, double rate,
                const Voice& voice);

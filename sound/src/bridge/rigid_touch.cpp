@@ -1,5 +1,6 @@
 #include "bridge/rigid_touch.h"
 
+#include <cstdint>
 #include <utility>
 
 namespace ode::sound {
@@ -8,6 +9,7 @@ void RigidTouches::begin_step() noexcept {
     touch_.clear();
     recalled_.clear();
     used_ = 0;
+    ++step_;
 }
 
 void RigidTouches::add(dSoftWorldID world, dJointID joint) {
@@ -18,8 +20,9 @@ void RigidTouches::add(dSoftWorldID world, dJointID joint) {
         touch.body[i] = dJointGetBody(joint, i);
     if (!touch.body[0])
         std::swap(touch.body[0], touch.body[1]);
-    touch.motion[0] = RigidMotion(touch.body[0]);
-    touch.motion[1] = RigidMotion(touch.body[1]);
+    for (int i = 0; i < 2; ++i)
+        if (touch.body[i])
+            touch.motion[i] = motion_of(touch.body[i]);
     dSoftRigidContact made{};
     made.struct_size = sizeof made;
     touch.located = dSoftWorldGetRigidContact(world, joint, &made) != 0;
@@ -47,6 +50,16 @@ void RigidTouches::add(dSoftWorldID world, dJointID joint) {
     }
     *touch.feedback = {}; // of a body asleep ODE leaves it as it is
     touch_.push_back(touch);
+}
+
+const RigidMotion& RigidTouches::motion_of(dBodyID body) {
+    constexpr std::size_t kPlaces = 1024;
+    moving_.resize(kPlaces);
+    const auto address = reinterpret_cast<std::uintptr_t>(body);
+    Moving& own = moving_[(address >> 4 ^ address >> 14) % kPlaces];
+    if (own.body != body || own.step != step_)
+        own = {body, step_, RigidMotion(body)};
+    return own.motion;
 }
 
 void RigidTouches::recall(RigidTouch& touch) {

@@ -68,6 +68,16 @@ private:
     void add(dSoftWorldID world, dJointID joint);
 
     void recall(RigidTouch& touch);
+    const RigidMotion& motion_of(dBodyID body);
+
+    /// A body's motion is asked for by each of its joints.
+    struct Moving {
+        dBodyID body = nullptr;
+        unsigned long step = 0;
+        RigidMotion motion;
+    };
+    std::vector<Moving> moving_; ///< by address
+    unsigned long step_ = 0;
 
     std::vector<RigidTouch> touch_;
     std::vector<RecalledContact> recalled_;

@@ -283,25 +283,6 @@ double splat(const SplatSurface& surface, const SplatEar* ear, int ears) {
     return ears == 2 ? splat_to<kFacing, 2>(surface, ear) : splat_to<kFacing, 1>(surface, ear);
 }
 
-double splat_run(const SplatSurface& surface, const SplatEar& ear) {
-    Lane latest{};
-    Aim aims = aim(ear);
-    aims.origin += Bits{0, 1, 2, 3};
-    for (int i = 0; i < surface.nodes; i += 4) {
-        Arrivals a;
-        arrive<Facing::kAll>(surface, aims, i, latest, a);
-#pragma GCC unroll 4
-        for (int k = 0; k < 4; ++k)
-            put(ear.ring[k % SplatEar::kCopies] + a.cell[k], surface.table + a.row[k],
-                a.weight[0][k], a.weight[1][k]);
-        aims.origin += fill_bits(4);
-    }
-    double last = 0.0;
-    for (int k = 0; k < 4; ++k)
-        last = latest[k] > last ? latest[k] : last;
-    return last + surface.nodes;
-}
-
 } // namespace
 } // namespace ode::sound::ODE_SOUND_ISA_NAMESPACE
 
@@ -324,7 +305,6 @@ const Kernels kKernels = {ODE_SOUND_ISA_NAME,
                           &weigh,
                           {&splat<Facing::kAll>, &splat<Facing::kVisible>, &splat<Facing::kCosine>,
                            &splat<Facing::kLeaning>},
-                          &splat_run,
                           &spread};
 
 } // namespace ode::sound::ODE_SOUND_ISA_NAMESPACE

@@ -11,11 +11,11 @@ using LooseFloats [[gnu::vector_size(4 * kFloats), gnu::aligned(4), gnu::may_ali
 inline Floats load_floats(const float* p) { return *reinterpret_cast<const LooseFloats*>(p); }
 inline void store_floats(float* p, const Floats& v) { *reinterpret_cast<LooseFloats*>(p) = v; }
 
-/// kGroups registers of oscillators at a time: each waits for itself, several fill the wait.
-/// @param first  column of the rows and pushes that q and v begin with.
+/// kGroups registers of oscillators at a time: each waits for itself, several fill the wait. Pushed
+/// ones find in v_rows, and in q_rows those of the first kModeLanes, what they are given.
 template <int kGroups, bool kPushed>
 inline void ring_groups(int columns, int samples, const float* step, int stride, float* q, float* v,
-                        float* q_rows, float* v_rows, const RingPush* push, int pushes, int first) {
+                        float* q_rows, float* v_rows, int first) {
     Floats a[kGroups], b[kGroups], c[kGroups], d[kGroups], x[kGroups], y[kGroups];
     for (int g = 0; g < kGroups; ++g) {
         a[g] = load_floats(step + g * kFloats);
@@ -30,16 +30,11 @@ inline void ring_groups(int columns, int samples, const float* step, int stride,
             const Floats next = x[g] + (a[g] * x[g] + b[g] * y[g]);
             y[g] = y[g] + (c[g] * x[g] + d[g] * y[g]);
             x[g] = next;
-            if constexpr (kPushed)
-                for (int p = 0; p < pushes; ++p) {
-                    const int at = first + g * kFloats;
-                    const float share = push[p].series[s];
-                    if (share == 0.0f || at >= push[p].columns)
-                        continue;
-                    y[g] += share * load_floats(push[p].v + at);
-                    if (push[p].q)
-                        x[g] += share * load_floats(push[p].q + at);
-                }
+            if constexpr (kPushed) {
+                y[g] += load_floats(v_rows + s * columns + g * kFloats);
+                if (first + g * kFloats < kModeLanes)
+                    x[g] += load_floats(q_rows + s * columns + g * kFloats);
+            }
             store_floats(q_rows + s * columns + g * kFloats, x[g]);
             store_floats(v_rows + s * columns + g * kFloats, y[g]);
         }
@@ -51,37 +46,59 @@ inline void ring_groups(int columns, int samples, const float* step, int stride,
 
 template <bool kPushed>
 inline void ring_all(int columns, int samples, const float* step, int stride, float* q, float* v,
-                     float* q_rows, float* v_rows, const RingPush* push, int pushes) {
+                     float* q_rows, float* v_rows) {
 #if defined(__AVX512F__)
     constexpr int kMost = 4; // 24 of 32 registers
 #else
     constexpr int kMost = 2; // 12 of 16
 #endif
     int k = 0;
-    for (; k + kMost * kFloats <= columns; k += kMost * kFloats)
-        ring_groups<kMost, kPushed>(columns, samples, step + k, stride, q + k, v + k, q_rows + k,
-                                    v_rows + k, push, pushes, k);
+    const auto next = [&](auto groups) {
+        ring_groups<groups, kPushed>(columns, samples, step + k, stride, q + k, v + k, q_rows + k,
+                                     v_rows + k, k);
+        k += groups * kFloats;
+    };
+    while (k + kMost * kFloats <= columns)
+        next(std::integral_constant<int, kMost>());
     if constexpr (kMost > 2) {
-        for (; k + 3 * kFloats <= columns; k += 3 * kFloats)
-            ring_groups<3, kPushed>(columns, samples, step + k, stride, q + k, v + k, q_rows + k,
-                                    v_rows + k, push, pushes, k);
-        for (; k + 2 * kFloats <= columns; k += 2 * kFloats)
-            ring_groups<2, kPushed>(columns, samples, step + k, stride, q + k, v + k, q_rows + k,
-                                    v_rows + k, push, pushes, k);
+        while (k + 3 * kFloats <= columns)
+            next(std::integral_constant<int, 3>());
+        while (k + 2 * kFloats <= columns)
+            next(std::integral_constant<int, 2>());
     }
-    for (; k < columns; k += kFloats)
-        ring_groups<1, kPushed>(columns, samples, step + k, stride, q + k, v + k, q_rows + k,
-                                v_rows + k, push, pushes, k);
+    while (k < columns)
+        next(std::integral_constant<int, 1>());
+}
+
+/// rows[s] += series[s] given, from `begin` to `end`.
+inline void give(int columns, const RingPush& push, const float* given, int width, float* rows) {
+    for (int k = 0; k < width; k += kFloats) {
+        const Floats all = load_floats(given + k);
+        float* row = rows + push.begin * columns + k;
+        for (int s = push.begin; s < push.end; ++s, row += columns)
+            store_floats(row, load_floats(row) + push.series[s] * all);
+    }
 }
 
 void ring(int columns, int samples, const float* step, int stride, float* q, float* v,
           float* q_rows, float* v_rows) {
-    ring_all<false>(columns, samples, step, stride, q, v, q_rows, v_rows, nullptr, 0);
+    ring_all<false>(columns, samples, step, stride, q, v, q_rows, v_rows);
 }
 
 void ring_pushed(int columns, int samples, const float* step, int stride, float* q, float* v,
                  float* q_rows, float* v_rows, const RingPush* push, int pushes) {
-    ring_all<true>(columns, samples, step, stride, q, v, q_rows, v_rows, push, pushes);
+    for (int k = 0; k < samples * columns; k += kFloats)
+        store_floats(v_rows + k, Floats{});
+    for (int s = 0; s < samples; ++s)
+        for (int k = 0; k < kModeLanes; k += kFloats)
+            store_floats(q_rows + s * columns + k, Floats{});
+    for (int p = 0; p < pushes; ++p) {
+        give(columns, push[p], push[p].v, push[p].columns < columns ? push[p].columns : columns,
+             v_rows);
+        if (push[p].q)
+            give(columns, push[p], push[p].q, kModeLanes, q_rows);
+    }
+    ring_all<true>(columns, samples, step, stride, q, v, q_rows, v_rows);
 }
 
 /// Sum of all lanes, by halves.
@@ -97,27 +114,65 @@ inline float sum_of(const Floats& v) {
     return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
-template <int kEars>
-inline void weigh_for(int columns, int samples, const float* const (*by)[2], const float* q_rows,
-                      const float* v_rows, float* const* out) {
-    for (int s = 0; s < samples; ++s) {
-        Floats even[kEars] = {}, odd[kEars] = {};
-        const float *q = q_rows + s * columns, *v = v_rows + s * columns;
-        for (int k = 0; k < columns; k += kFloats) {
-            const Floats x = load_floats(q + k), y = load_floats(v + k);
-            for (int e = 0; e < kEars; ++e) {
-                even[e] += load_floats(by[e][0] + k) * x;
-                odd[e] += load_floats(by[e][1] + k) * y;
-            }
-        }
-        for (int e = 0; e < kEars; ++e)
-            out[e][s] = sum_of(even[e] + odd[e]);
+template <int kBlock, int kHalf, int... kLane>
+inline Floats halves(const Floats& x, const Floats& y, std::integer_sequence<int, kLane...>) {
+    using Index [[gnu::vector_size(4 * kFloats)]] = std::int32_t;
+    // Of each block of x, then of y, the first half or the second.
+    return __builtin_shuffle(
+        x, y,
+        Index{(kLane / (kBlock / 2) * kBlock + kLane % (kBlock / 2) + kHalf * (kBlock / 2))...});
+}
+
+/// kFloats sums of all lanes at once, by halves and two at a time.
+template <int kBlock>
+inline Floats sums_of(const Floats* part) {
+    if constexpr (kBlock == 1) {
+        return *part;
+    } else {
+        constexpr auto kAll = std::make_integer_sequence<int, kFloats>();
+        Floats next[kBlock / 2];
+        for (int i = 0; i < kBlock / 2; ++i)
+            next[i] = halves<kBlock, 0>(part[2 * i], part[2 * i + 1], kAll) +
+                      halves<kBlock, 1>(part[2 * i], part[2 * i + 1], kAll);
+        return sums_of<kBlock / 2>(next);
     }
 }
 
-void weigh(int columns, int samples, int ears, const float* const (*by)[2], const float* q_rows,
+template <int kSums>
+inline void weigh_for(int columns, int samples, const float* const (*by)[2], const float* q_rows,
+                      const float* v_rows, float* const* out) {
+    int s = 0;
+    const auto add = [&](int at, Floats* sum, int apart) {
+        const float *q = q_rows + at * columns, *v = v_rows + at * columns;
+        Floats own[kSums] = {};
+        for (int k = 0; k < columns; k += kFloats) {
+            const Floats x = load_floats(q + k), y = load_floats(v + k);
+            for (int e = 0; e < kSums; ++e)
+                own[e] += load_floats(by[e][0] + k) * x + load_floats(by[e][1] + k) * y;
+        }
+        for (int e = 0; e < kSums; ++e)
+            sum[e * apart] = own[e];
+    };
+    for (; s + kFloats <= samples; s += kFloats) {
+        Floats part[kSums * kFloats];
+        for (int i = 0; i < kFloats; ++i)
+            add(s + i, part + i, kFloats);
+        for (int e = 0; e < kSums; ++e)
+            store_floats(out[e] + s, sums_of<kFloats>(part + e * kFloats));
+    }
+    for (; s < samples; ++s) {
+        Floats sum[kSums];
+        add(s, sum, 1);
+        for (int e = 0; e < kSums; ++e)
+            out[e][s] = sum_of(sum[e]);
+    }
+}
+
+void weigh(int columns, int samples, int sums, const float* const (*by)[2], const float* q_rows,
            const float* v_rows, float* const* out) {
-    (ears == 2 ? weigh_for<2> : weigh_for<1>)(columns, samples, by, q_rows, v_rows, out);
+    (sums == 4   ? weigh_for<4>
+     : sums == 2 ? weigh_for<2>
+                 : weigh_for<1>)(columns, samples, by, q_rows, v_rows, out);
 }
 
 } // namespace

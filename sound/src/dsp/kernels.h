@@ -59,9 +59,10 @@ constexpr int kModeLanes = 16;
 /// What pushes oscillators while they swing.
 struct RingPush {
     const float* series; ///< share of it in each sample
-    const float* q;      ///< what all of it gives q; null: nothing
+    const float* q;      ///< what all of it gives q of the first kModeLanes; null: nothing
     const float* v;      ///< and q'
     int columns;         ///< those after are not pushed; whole numbers of kModeLanes
+    int begin, end;      ///< samples in which the share is not zero
 };
 
 struct Kernels {
@@ -110,18 +111,13 @@ struct Kernels {
                         float* q_rows, float* v_rows, const RingPush* push, int pushes);
 
     /// out[e][s] = sum over the columns of by[e][0] q_rows[s] + by[e][1] v_rows[s], for e below
-    /// `ears`, which is 1 or 2.
-    void (*weigh)(int columns, int samples, int ears, const float* const (*by)[2],
+    /// `sums`, which is 1, 2 or 4.
+    void (*weigh)(int columns, int samples, int sums, const float* const (*by)[2],
                   const float* q_rows, const float* v_rows, float* const* out);
 
     /// Adds flow / distance of every node to the rings of the ears at the retarded time.
     /// @return largest delay that was not dropped [samples]; 0 if all were.
     double (*splat[4])(const SplatSurface& surface, const SplatEar* ear, int ears);
-
-    /// The same of one point at successive samples, the first at ear.sample: "nodes" are its
-    /// places, sample by sample, all round alike. @return largest delay, counted from the first
-    /// sample.
-    double (*splat_run)(const SplatSurface& surface, const SplatEar& ear);
 
     /// Adds every value to the ring of an ear after its delay; ear.gain, position and mach don't
     /// count. Delays must not fall by as much as `every` from one sample to the next.

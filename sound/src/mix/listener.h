@@ -106,14 +106,10 @@ private:
         std::array<VoiceGains, kEars> gains;
     };
     Voice& find_voice(const void* voice, const TransferTable& table, std::size_t lead = 0);
-    /// Runs with a click.
-    void send_struck(const ModalRun& run);
+    /// @param heard  by the ear. @param place, mach  of the ear [m], and its velocity over that of
+    /// sound.  @param share  of what it hears that is heard there.
     void send_struck(const ModalRun& run, std::size_t e, const float* heard, const Vec3& place,
                      const Vec3& mach, double share) noexcept;
-    /// @param heard  by the ear, without the distance. @param place, mach  of the ear [m], and its
-    /// velocity over that of sound.  @param share  of what it hears that is heard there.
-    void send(const ModalRun& run, int e, const float* heard, const Vec3& place, const Vec3& mach,
-              double share) noexcept;
     struct Shaded {
         const void* source;
         std::unique_ptr<Shade> shade;

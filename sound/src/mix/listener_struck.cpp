@@ -21,7 +21,9 @@ double way_of(const Vec3& x, const Vec3& place, const Vec3& mach, double least) 
 } // namespace
 
 // A struck body is one point on its way to an ear: modes and click have been brought together.
-void Listener::send_struck(const ModalRun& run) {
+void Listener::send(const ModalRun& run) {
+    if (!ear_[0].path || !ear_[0].wave || (run.gain == 0.0 && run.gain_step == 0.0))
+        return;
     Voice& voice = find_voice(run.voice, *run.table, ClickColumns::kCount);
     const auto ears = static_cast<std::size_t>(ears_);
     float heard[kEars][ModalRun::kMost];

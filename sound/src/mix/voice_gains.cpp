@@ -11,10 +11,6 @@ VoiceGains::VoiceGains(const TransferTable& table, std::size_t lead)
     const std::size_t lanes = (lead + now_.size() + kModeLanes - 1) / kModeLanes * kModeLanes;
     for (AlignedFloats* row : {&velocity_, &acceleration_, &velocity_step_, &acceleration_step_})
         row->assign(lanes, 0.0f);
-    if (lead > 0)
-        for (AlignedFloats* row :
-             {&run_velocity_, &run_acceleration_, &run_velocity_step_, &run_acceleration_step_})
-            row->assign(lanes, 0.0f);
 }
 
 double VoiceGains::lobe(const Vec3& place) const noexcept {
@@ -34,7 +30,6 @@ bool VoiceGains::look(std::int64_t sample, const TransferTable& table, const Vec
     pace_ = anew ? Vec3::Zero() : Vec3((place - seen_) / static_cast<double>(since));
     seen_ = place;
     looked_ = sample;
-    anew_ = true;
     ramp_ = longest;
     if (kLeap * lobe(place) < pace_.norm() * static_cast<double>(longest))
         ramp_ = std::max<std::int64_t>(
@@ -113,95 +108,65 @@ void VoiceGains::look_again(const ModalRun& run, const Vec3& ear, double allowan
         credit_ -= cost;
 }
 
-void VoiceGains::flow(const ModalRun& run, std::span<VoiceGains* const> gains,
-                      std::span<const Vec3> ear, double allowance, float* const* out) noexcept {
-    const float *by[2][2] = {}, *step[2][2] = {};
-    float slope[2][ModalRun::kMost];
-    float* const slopes[2] = {slope[0], slope[1]};
-    bool turns = false;
-    for (std::size_t e = 0; e < gains.size(); ++e) {
-        VoiceGains& own = *gains[e];
-        own.look_again(run, ear[e], allowance);
-        by[e][0] = own.velocity_.data(), by[e][1] = own.acceleration_.data();
-        step[e][0] = own.velocity_step_.data(), step[e][1] = own.acceleration_step_.data();
-        turns = turns || own.turns_;
-    }
-    const auto ears = static_cast<int>(gains.size());
-    kernels().weigh(run.columns, run.samples, ears, by, run.amplitude, run.rate, out);
-    if (!turns)
-        return;
-    kernels().weigh(run.columns, run.samples, ears, step, run.amplitude, run.rate, slopes);
-    for (std::size_t e = 0; e < gains.size(); ++e)
-        for (int s = 0; s < run.samples; ++s)
-            out[e][s] += static_cast<float>(gains[e]->share(run.sample + s)) * slope[e][s];
-}
-
 void VoiceGains::pressure_flow(const ModalRun& run, std::span<VoiceGains* const> gains,
                                std::span<const Vec3> ear, double allowance,
                                float* const* out) noexcept {
-    const float *by[2][2] = {}, *step[2][2] = {};
-    float slope[2][ModalRun::kMost];
-    float* const slopes[2] = {slope[0], slope[1]};
+    // Gains at the begin and their change, each a row: what is heard is begin + u change, u from
+    // u_begin on by u_step.
+    const std::size_t ears = gains.size();
+    const float* by[4][2];
+    float change[2][ModalRun::kMost];
+    float* sum[4];
+    double u_begin[2], u_step[2];
     const ClickColumns& click = *run.click;
-    const int length = run.samples * run.every;
     bool turns = false;
-    for (std::size_t e = 0; e < gains.size(); ++e) {
+    for (std::size_t e = 0; e < ears; ++e) {
         VoiceGains& own = *gains[e];
         own.look_again(run, ear[e], allowance);
-        const auto share = static_cast<float>(own.turns_ ? own.share(run.sample) : 0.0);
-        const auto more =
-            static_cast<float>(own.turns_ ? own.share(run.sample + length) : 0.0) - share;
-        if (own.turns_ || own.anew_) {
-            for (std::size_t k = 0; k < own.velocity_.size(); ++k) {
-                own.run_velocity_[k] = own.velocity_[k] + share * own.velocity_step_[k];
-                own.run_acceleration_[k] = own.acceleration_[k] + share * own.acceleration_step_[k];
-            }
-            for (std::size_t k = 0; k < own.velocity_.size(); ++k) {
-                own.run_velocity_step_[k] = more * own.velocity_step_[k];
-                own.run_acceleration_step_[k] = more * own.acceleration_step_[k];
-            }
-            own.anew_ = false;
-        }
+        u_begin[e] = own.turns_ ? own.share(run.sample) : 0.0;
+        const double u_end = own.turns_ ? own.share(run.sample + run.samples * run.every) : 1.0;
+        u_step[e] = (u_end - u_begin[e]) / run.samples;
         // p = d/dt [r . D V / r^2 + r . D V' / (r c)], V = share U + W.
         const double least = run.table->near_limit();
         const auto ahead = [&](int samples, double& far) -> Vec3 {
             const Vec3 way = ear[e] - run.center - samples * run.pace;
-            far = std::max(way.norm(), least);
-            return run.rotation.transpose() * way.stableNormalized() / far;
+            const double length = way.norm();
+            far = std::max(length, least);
+            return run.rotation.transpose() * (way / (std::max(length, 1e-12) * far));
         };
         double far = 0.0, far_then = 0.0;
         const Vec3 now = ahead(0, far), then = ahead(run.samples, far_then);
-        for (std::size_t i = 0; i < 3; ++i) {
-            const auto at = static_cast<int>(i);
-            const auto of = [&](const Vec3& way, double r, std::size_t which) {
-                return which == 0 ? way[at] / r
-                       : which == 1
-                           ? way[at] / click.speed
-                           : click.share * way[at] * (1.0 / r - click.forget / click.speed);
-            };
-            own.run_velocity_[i] = static_cast<float>(of(now, far, 0));
-            own.run_acceleration_[i] = static_cast<float>(of(now, far, 1));
-            own.run_velocity_[3 + i] = static_cast<float>(of(now, far, 2));
-            own.run_velocity_step_[i] = static_cast<float>(of(then, far_then, 0) - of(now, far, 0));
-            own.run_acceleration_step_[i] =
-                static_cast<float>(of(then, far_then, 1) - of(now, far, 1));
-            own.run_velocity_step_[3 + i] =
-                static_cast<float>(of(then, far_then, 2) - of(now, far, 2));
+        const double per_u = u_end > u_begin[e] ? 1.0 / (u_end - u_begin[e]) : 0.0;
+        const auto put = [&](AlignedFloats& begin, AlignedFloats& step, std::size_t at,
+                             double first, double last) {
+            const double slope = per_u * (last - first);
+            begin[at] = static_cast<float>(first - u_begin[e] * slope);
+            step[at] = static_cast<float>(slope);
+        };
+        const double forgot = click.forget / click.speed;
+        for (int i = 0; i < 3; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            put(own.velocity_, own.velocity_step_, at, now[i] / far, then[i] / far_then);
+            put(own.acceleration_, own.acceleration_step_, at, now[i] / click.speed,
+                then[i] / click.speed);
+            put(own.velocity_, own.velocity_step_, 3 + at,
+                click.share * now[i] * (1.0 / far - forgot),
+                click.share * then[i] * (1.0 / far_then - forgot));
         }
-        by[e][0] = own.run_velocity_.data(), by[e][1] = own.run_acceleration_.data();
-        step[e][0] = own.run_velocity_step_.data(), step[e][1] = own.run_acceleration_step_.data();
+        by[e][0] = own.velocity_.data(), by[e][1] = own.acceleration_.data();
+        by[ears + e][0] = own.velocity_step_.data();
+        by[ears + e][1] = own.acceleration_step_.data();
+        sum[e] = out[e], sum[ears + e] = change[e];
         constexpr double kTurned = 1e-4; // of the direction: 80 dB down
         turns = turns || own.turns_ || (now - then).norm() > kTurned * now.norm();
     }
-    const auto ears = static_cast<int>(gains.size());
-    kernels().weigh(run.columns, run.samples, ears, by, run.amplitude, run.rate, out);
-    if (!turns)
-        return;
-    kernels().weigh(run.columns, run.samples, ears, step, run.amplitude, run.rate, slopes);
-    const float per_sample = 1.0f / static_cast<float>(run.samples);
-    for (std::size_t e = 0; e < gains.size(); ++e)
+    kernels().weigh(run.columns, run.samples, static_cast<int>(turns ? 2 * ears : ears), by,
+                    run.amplitude, run.rate, sum);
+    for (std::size_t e = 0; turns && e < ears; ++e) {
+        const auto begin = static_cast<float>(u_begin[e]), step = static_cast<float>(u_step[e]);
         for (int s = 0; s < run.samples; ++s)
-            out[e][s] += static_cast<float>(s) * per_sample * slope[e][s];
+            out[e][s] += (begin + static_cast<float>(s) * step) * change[e][s];
+    }
 }
 
 } // namespace ode::sound

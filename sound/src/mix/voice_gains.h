@@ -30,13 +30,9 @@ public:
     /// thirtieth of a core; who is short of it looks more rarely.
     static constexpr double kAllowance = 300.0;
 
-    /// The same for a run, of several ears at once. @param out  of each ear and sample, without R.
-    /// @param allowance  for one ear, a sample.
-    static void flow(const ModalRun& run, std::span<VoiceGains* const> gains,
-                     std::span<const Vec3> ear, double allowance, float* const* out) noexcept;
-
-    /// The same of a run whose leading columns are the click's, over the distance already: what
+    /// The same for a run whose leading columns are the click's, of several ears at once: what
     /// differentiates to the pressure.
+    /// @param out  of each ear and sample.  @param allowance  for one ear, a sample.
     static void pressure_flow(const ModalRun& run, std::span<VoiceGains* const> gains,
                               std::span<const Vec3> ear, double allowance,
                               float* const* out) noexcept;
@@ -60,8 +56,6 @@ private:
     std::vector<ModeGain> now_, next_;
     std::size_t lead_;
     AlignedFloats velocity_, acceleration_, velocity_step_, acceleration_step_; ///< kModeLanes
-    /// Of a run: at its begin, and the change to its end.
-    AlignedFloats run_velocity_, run_acceleration_, run_velocity_step_, run_acceleration_step_;
     std::vector<double> scratch_;
     std::int64_t looked_ = 0;
     std::int64_t watched_ = 0;  ///< after that: whether the ear goes on as it did
@@ -72,7 +66,6 @@ private:
     double credit_ = 0.0;
     std::int64_t ramp_ = kInterval; ///< the way to next_ [grid samples]
     bool turns_ = false;            ///< the steps aren't zero
-    bool anew_ = true;              ///< looked since the gains of a run were worked out
 };
 
 } // namespace ode::sound

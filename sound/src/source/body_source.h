@@ -68,8 +68,8 @@ struct ClickColumns {
     double omega = 0.0, decay = 0.0; ///< of W [rad/s], [1/s]
 };
 
-/// Modes of a body at successive samples of the grid. Borrowed. A body that rings freely is told in
-/// runs: what is the same for all their samples is worked out once.
+/// A struck body at successive samples of the grid. Borrowed. What is the same for all samples of a
+/// run is worked out once.
 struct ModalRun {
     static constexpr int kMost = 32; ///< samples
     std::int64_t sample;             ///< the first, on the grid
@@ -80,12 +80,9 @@ struct ModalRun {
     Eigen::Matrix3d rotation;      ///< from the frame to the world
     const TransferTable* table;
     const void* voice;
-    double gain, gain_step;          ///< at the first sample, and its change a sample
-    const RigidSound* rigid;         ///< null: the body as a whole is silent
-    const RigidSound::Six* velocity; ///< of the body in its frame, one a sample
-    const RigidSound::Six* slope;
-    int every = 1;                       ///< samples of the grid from one to the next
-    const ClickColumns* click = nullptr; ///< the leading columns; null: all are modes
+    double gain, gain_step;    ///< at the first sample, and its change a sample
+    int every;                 ///< samples of the grid from one to the next
+    const ClickColumns* click; ///< the leading columns
 };
 
 /// Takes what sources give off, in order of time for each source.

@@ -82,7 +82,7 @@ void StruckVoice::drive(std::int64_t begin, std::span<const float> series,
     made.series = series;
     for (std::size_t k = 0; k < push.size(); ++k)
         made.push[kClick + k] = carries(model_->omega[k]) ? push[k] : 0.0f;
-    Jolt(*model_, jerk).put(made.click, made.click_rate);
+    Jolt(*model_, jerk).put(made.click, made.push);
     active_ = model_->columns;
 }
 
@@ -111,13 +111,18 @@ void StruckVoice::push(double time, std::span<const double> push, const RigidSou
 void StruckVoice::damp(std::span<const float> decay) noexcept {
     damped_ = !decay.empty();
     const std::size_t all = model_->columns;
+    const auto lapse = static_cast<float>(1.0 / rate_);
+    const float* const step = model_->step.data() + kClick;
+    float* const out = damped_step_.data() + kClick;
     for (std::size_t k = 0; k < decay.size(); ++k) {
         // The step's matrix times g, of which changes are kept: g (1 + a) - 1 = a + less (1 + a).
-        const auto less = static_cast<float>(std::expm1(-static_cast<double>(decay[k]) / rate_));
+        // less = exp(-x) - 1: four terms, 1e-5 of it off at most where x is 0.2, and more there is
+        // as little to be heard of.
+        const float x = std::min(decay[k] * lapse, 1.0f);
+        const float less = -x * (1.0f - x * (0.5f - x * (1.0f / 6 - x * (1.0f / 24 - x / 120))));
         for (std::size_t row = 0; row < 4; ++row) {
-            const std::size_t at = row * all + kClick + k;
-            const float own = model_->step[at];
-            damped_step_[at] = own + less * (own + (row == 0 || row == 3 ? 1.0f : 0.0f));
+            const float own = step[row * all + k];
+            out[row * all + k] = own + less * (own + (row == 0 || row == 3 ? 1.0f : 0.0f));
         }
     }
 }

@@ -20,6 +20,20 @@ std::size_t padded(std::size_t columns) {
     return (columns + kModeLanes - 1) / kModeLanes * kModeLanes;
 }
 
+/// A part of the way from one orientation to another; along the chord where it is short, which is
+/// 1e-4 rad off at most.
+Eigen::Quaterniond between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to,
+                           double part) noexcept {
+    constexpr double kShort = 0.99; // cosine of half the turn
+    const double dot = from.dot(to);
+    if (std::fabs(dot) < kShort)
+        return from.slerp(part, to);
+    const double sign = dot < 0.0 ? -1.0 : 1.0;
+    Eigen::Quaterniond out(((1.0 - part) * from.coeffs() + sign * part * to.coeffs()).eval());
+    out.normalize();
+    return out;
+}
+
 } // namespace
 
 void find_steps(StruckVoiceModel& model, double rate) {
@@ -75,7 +89,7 @@ void StruckVoice::ring(std::int64_t first, int samples) noexcept {
     float* const v_rows = model_->rate_rows.data();
     const auto columns = static_cast<int>(active_), stride = static_cast<int>(model_->columns);
     float series[2 * kMostPulses + kMostDrives][ModalRun::kMost];
-    RingPush push[2 * (kMostPulses + kMostDrives)];
+    RingPush push[2 * kMostPulses + kMostDrives], whole[2 * kMostPulses + kMostDrives];
     int pushes = 0;
     for (std::size_t p = 0; p < pulses_; ++p) {
         Pulse& pulse = pulse_[p];
@@ -89,12 +103,18 @@ void StruckVoice::ring(std::int64_t first, int samples) noexcept {
                 return;
             double share[ModalRun::kMost];
             pulse_shares(u, step, samples, share);
+            RingPush& own = push[pushes] = {series[pushes], q, v, pushed, samples, 0};
             for (int i = 0; i < samples; ++i) {
+                if (share[i] == given) {
+                    series[pushes][i] = 0.0f;
+                    continue;
+                }
+                own.begin = std::min(own.begin, i);
+                own.end = i + 1;
                 series[pushes][i] = static_cast<float>(share[i] - given);
                 given = share[i];
             }
-            push[pushes] = {series[pushes], q, v, pushed};
-            ++pushes;
+            pushes += own.begin < own.end;
         };
         follow(lead_, pulse.given, nullptr, pulse.push.data(), columns);
         follow(0.0, pulse.click_given, pulse.click.data(), pulse.click_rate.data(), kModeLanes);
@@ -107,8 +127,7 @@ void StruckVoice::ring(std::int64_t first, int samples) noexcept {
             const auto at = static_cast<std::size_t>(first + i - drive.begin - 1);
             row[i] = at < drive.series.size() ? drive.series[at] : 0.0f;
         }
-        push[pushes++] = {row, nullptr, drive.push.data(), columns};
-        push[pushes++] = {row, drive.click.data(), drive.click_rate.data(), kModeLanes};
+        push[pushes++] = {row, drive.click.data(), drive.push.data(), columns, 0, samples};
     }
     const float* const step = damped_ ? damped_step_.data() : model_->step.data();
     // From kick to kick.
@@ -117,14 +136,20 @@ void StruckVoice::ring(std::int64_t first, int samples) noexcept {
         const int upto = static_cast<int>(std::clamp<std::int64_t>(
             kick - first + 1, done + 1, static_cast<std::int64_t>(samples)));
         float *const q = q_rows + done * columns, *const v = v_rows + done * columns;
+        for (int p = 0; p < pushes && done == 0 && upto < samples; ++p)
+            whole[p] = push[p];
+        for (int p = 0; p < pushes && upto - done < samples; ++p) { // the part of each
+            push[p] = whole[p];
+            push[p].series += done;
+            push[p].begin = std::max(0, push[p].begin - done);
+            push[p].end = std::min(upto, push[p].end) - done;
+        }
         if (pushes > 0)
             kernels().ring_pushed(columns, upto - done, step, stride, amplitude_.data(),
                                   rate_of_.data(), q, v, push, pushes);
         else
             kernels().ring(columns, upto - done, step, stride, amplitude_.data(), rate_of_.data(),
                            q, v);
-        for (int p = 0; p < pushes; ++p)
-            push[p].series += upto - done;
         done = upto;
         if (kick <= first + done - 1)
             take_kicks(first + done - 1, q_rows + (done - 1) * columns,
@@ -188,7 +213,7 @@ void StruckVoice::send(std::int64_t first, int samples, const FramePose& to, boo
     run.rate = rate_rows.data();
     run.center = pose_.center + share * way;
     run.pace = ahead * way;
-    run.rotation = pose_.turn.slerp(share, to.turn).toRotationMatrix();
+    run.rotation = between(pose_.turn, to.turn, share).toRotationMatrix();
     run.table = &model_->table;
     run.voice = this;
     run.gain = 1.0;

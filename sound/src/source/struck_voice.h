@@ -103,8 +103,8 @@ private:
     struct Drive {
         std::int64_t begin = 0;
         std::span<const float> series;
-        AlignedFloats push;
-        alignas(64) std::array<float, kModeLanes> click{}, click_rate{};
+        AlignedFloats push; ///< columns
+        alignas(64) std::array<float, kModeLanes> click{};
     };
 
     /// Of push(): modes later than the click by lead_.

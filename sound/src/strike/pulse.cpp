@@ -1,5 +1,6 @@
 #include "strike/pulse.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -56,8 +57,15 @@ double pulse_share(double u) noexcept { return share_of(table(), u); }
 
 void pulse_shares(double u, double step, int count, double* out) noexcept {
     const Table& course = table();
-    for (int i = 0; i < count; ++i)
+    // Most of a run lies before or after.
+    const auto at = [&](double end) {
+        return static_cast<int>(std::clamp(std::ceil((end - u) / step), 0.0, double(count)));
+    };
+    const int first = at(0.0), last = std::max(first, at(1.0));
+    std::fill(out, out + first, 0.0);
+    for (int i = first; i < last; ++i)
         out[i] = share_of(course, u + i * step);
+    std::fill(out + last, out + count, 1.0);
 }
 
 double pulse_spectrum(double x) noexcept {

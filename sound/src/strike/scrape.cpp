@@ -30,9 +30,20 @@ void Scrape::run(int samples, float* force) noexcept {
     std::array<double, 2> speed_step;
     for (std::size_t s = 0; s < 2; ++s)
         speed_step[s] = per * (aim_.speed[s] - speed_[s]);
+    bool stands[2];
+    double held[2] = {};
+    for (std::size_t s = 0; s < 2; ++s) {
+        stands[s] = speed_[s] == 0.0 && aim_.speed[s] == 0.0;
+        if (stands[s])
+            held[s] = surface_[s]->mean(place_[s], 2.0 * aim_.radius);
+    }
     for (int i = 0; i < samples; ++i) {
         double y = 0.0;
         for (std::size_t s = 0; s < 2; ++s) {
+            if (stands[s]) { // what doesn't change is filtered away
+                y += held[s];
+                continue;
+            }
             speed_[s] += speed_step[s];
             const double way = lapse * speed_[s];
             place_[s] += way;

@@ -58,16 +58,16 @@ TEST(ModeBank, WeighsEachEar) {
         std::mt19937 random(2);
         const AlignedFloats q = random_row(random, kColumns * kSamples),
                             v = random_row(random, kColumns * kSamples);
-        AlignedFloats weight[2][2];
-        const float* by[2][2];
-        for (int e = 0; e < 2; ++e)
+        AlignedFloats weight[4][2];
+        const float* by[4][2];
+        for (int e = 0; e < 4; ++e)
             for (int i = 0; i < 2; ++i) {
                 weight[e][i] = random_row(random, kColumns);
                 by[e][i] = weight[e][i].data();
             }
-        for (int ears = 1; ears <= 2; ++ears) {
-            float heard[2][kSamples];
-            float* const out[2] = {heard[0], heard[1]};
+        for (const int ears : {1, 2, 4}) {
+            float heard[4][kSamples];
+            float* const out[4] = {heard[0], heard[1], heard[2], heard[3]};
             set->weigh(kColumns, kSamples, ears, by, q.data(), v.data(), out);
             for (int e = 0; e < ears; ++e)
                 for (std::size_t s = 0; s < kSamples; ++s) {
@@ -95,8 +95,10 @@ TEST(ModeBank, IsPushedAfterEachStep) {
                                        random_row(random, kModeLanes)};
         AlignedFloats series[2] = {random_row(random, kSamples), random_row(random, kSamples)};
         series[0][3] = 0.0f;
-        const RingPush given[2] = {{series[0].data(), nullptr, push[0].data(), kColumns},
-                                   {series[1].data(), push[1].data(), push[2].data(), kModeLanes}};
+        const RingPush given[2] = {
+            {series[0].data(), nullptr, push[0].data(), kColumns, 0, kSamples},
+            {series[1].data(), push[1].data(), push[2].data(), kModeLanes, 2, kSamples - 1}};
+        series[1].front() = series[1][1] = series[1].back() = 0.0f;
         AlignedFloats q_rows(kColumns * kSamples), v_rows(kColumns * kSamples);
         row[0].resize(kColumns);
         row[1].resize(kColumns);
