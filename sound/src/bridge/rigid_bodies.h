@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bridge/blow.h"
 #include "bridge/contact_sides.h"
 #include "bridge/rigid_model.h"
 #include "bridge/rigid_scrapes.h"
@@ -28,6 +29,8 @@ struct RigidBody {
         Vec3 local;          ///< in the body's frame [m]
         Vec3 world;          ///< [m]
         double seen;         ///< [s]
+        double load = 0.0;   ///< see History
+        int steps = 0;
     };
     std::vector<Known> known;
     std::vector<float> push; ///< scratch, one a mode
@@ -103,6 +106,9 @@ private:
     void list();
     RigidBody* find(dBodyID body) const noexcept;
     void meet(RigidTouch& touch, double h, Scene& scene, RigidModels& models);
+    void fall(const RigidTouch& touch, RigidBody* const side[2], const void* partner,
+              const Blow& blow, double h, Scene& scene, RigidModels& models);
+    void fall_passed(double h, Scene& scene, RigidModels& models);
     /// A contact that bears a load: it damps what rings (by its share of the strain energy: E. E.
     /// Ungar, E. M. Kerwin, J. Acoust. Soc. Am. 34, 1962) and, sliding or rolling, makes it sound.
     void bear(const RigidTouch& touch, RigidBody* const side[2], const void* partner, double load,
@@ -117,9 +123,21 @@ private:
     RigidTouches touches_;
     RigidScrapes scrapes_;
     SoftPushes pushes_;
-    Stroke stroke_;       ///< not dealt yet
-    double begin_ = 0.0;  ///< of the present step [s]
-    double before_ = 0.0; ///< length of the step before [s]
+    struct Fell {
+        dBodyID body[2];
+        double time; ///< [s]
+    };
+    std::vector<Fell> fell_; ///< blows of this step
+    struct Passed {
+        const RigidTouch* touch;
+        RigidBody* side[2];
+        const void* partner;
+        Blow blow;
+    };
+    std::vector<Passed> passed_; ///< blows through contacts that bore, of this step
+    Stroke stroke_;              ///< not dealt yet
+    double begin_ = 0.0;         ///< of the present step [s]
+    double before_ = 0.0;        ///< length of the step before [s]
 };
 
 } // namespace ode::sound
