@@ -9,7 +9,7 @@
  * NULL on failure after a sentence through ODE's message handler (dSetMessageHandler). A NULL id is
  * a caller's bug and ends in dDebug; an id whose object has ended is told apart, and destroying it
  * once more does nothing. Bodies come, go and are placed between steps, outside of near callbacks.
- * Not thread-safe per world: call from the thread that steps it.
+ * Not thread-safe per world: call from the thread that steps it (threads.h has it use more).
  */
 #ifndef ODE_SOFTBODY_SOFTBODY_H
 #define ODE_SOFTBODY_SOFTBODY_H
@@ -374,6 +374,7 @@ DSOFT_API int dSoftWorldRemoveObserver(dSoftWorldID world, void* data);
 
 #include <ode_softbody/rest.h>
 #include <ode_softbody/rigid.h>
+#include <ode_softbody/threads.h>
 #include <ode_softbody/tier.h>
 
 #endif

@@ -1,6 +1,7 @@
 #include "integrate/central_difference.h"
 
 #include "base/isa.h"
+#include "base/tasks.h"
 #include "integrate/kick_drift_kernel.h"
 
 #include <cmath>
@@ -21,6 +22,8 @@ KickDrift kick_drift_kernel();
 
 namespace {
 
+constexpr std::size_t kLeastRange = 1000; ///< nodes: about a microsecond
+
 KickDrift kernel() noexcept {
     switch (active_isa()) {
 #if defined(__x86_64__)
@@ -39,8 +42,12 @@ void run(const NodeInertia& inertia, double h, double drift, const NodeArray& fo
     static const KickDrift run_kernel = kernel();
     const double s = inertia.alpha * h;
     const double gain = s == 0 ? h : h * (-std::expm1(-s) / s);
-    run_kernel(velocity.size(), inertia.inverse_mass.data(), {std::exp(-s), gain, drift},
-               force.data(), velocity.data(), position);
+    const KickDriftFactors by{std::exp(-s), gain, drift};
+    in_ranges(velocity.size(), kLeastRange, [&](std::size_t first, std::size_t last) {
+        const std::size_t at = NodeArray::kStride * first;
+        run_kernel(last - first, inertia.inverse_mass.data() + first, by, force.data() + at,
+                   velocity.data() + at, position ? position + at : nullptr);
+    });
 }
 
 } // namespace

@@ -11,6 +11,13 @@ namespace ode::soft {
 
 inline constexpr DeformationRange kNoDeformation{std::numeric_limits<double>::infinity(), 0, 0};
 
+/// Of both lists of elements. What isn't finite in one isn't in the sum either.
+inline DeformationRange widened(const DeformationRange& a, const DeformationRange& b) noexcept {
+    const double energy = a.energy + b.energy;
+    return {std::fmin(a.min_determinant, b.min_determinant) + 0 * energy,
+            std::fmax(a.max_trace, b.max_trace), energy};
+}
+
 /// The largest principal stretch l of an element obeys l^2 + 2 J/l <= tr(F^T F), because the other
 /// two squares sum to at least twice their product. So the largest root of l^3 - t l + 2 J = 0
 /// bounds it, with equality at rest; least J with greatest t bounds all elements at once.

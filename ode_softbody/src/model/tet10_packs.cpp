@@ -6,6 +6,9 @@
 namespace ode::soft {
 namespace {
 
+// Some microseconds of work: joining threads takes half of one.
+constexpr std::size_t kLeastSlab = 60;
+
 Eigen::Vector4d gauss_point(int q) {
     Eigen::Vector4d l = Eigen::Vector4d::Constant(kGaussFar);
     l[q] = kGaussNear;
@@ -72,16 +75,17 @@ Tet10Packs::Tet10Packs(const TetMesh& mesh, std::span<const Solid> solid)
         throw InputError(format("quadratic tetrahedra were asked of a mesh of order %d: promote it "
                                 "or choose linear ones",
                                 mesh.order));
-    const auto order = order_elements(mesh, solid.size());
-    for (std::size_t s = 0; s < solid.size(); ++s) {
-        std::vector<int> straight, curved;
-        for (const int e : order[s]) {
-            check(mesh, static_cast<std::size_t>(e));
-            (is_straight(mesh, static_cast<std::size_t>(e)) ? straight : curved).push_back(e);
+    const std::vector<ElementSlab> slabs = order_elements(mesh, solid.size(), kLeastSlab);
+    for (std::size_t slab = 0; slab < slabs.size(); ++slab)
+        for (std::size_t s = 0; s < solid.size(); ++s) {
+            std::vector<int> straight, curved;
+            for (const int e : slabs[slab].of_solid[s]) {
+                check(mesh, static_cast<std::size_t>(e));
+                (is_straight(mesh, static_cast<std::size_t>(e)) ? straight : curved).push_back(e);
+            }
+            append(mesh, solid[s], slab, TetShape::quadratic, straight);
+            append(mesh, solid[s], slab, TetShape::curved, curved);
         }
-        append(mesh, solid[s], TetShape::quadratic, straight);
-        append(mesh, solid[s], TetShape::curved, curved);
-    }
     for (const TetBlock& block : block_)
         for (std::size_t e = 0; e < block.elements; ++e) {
             const Element el = element(block, e);
@@ -91,13 +95,17 @@ Tet10Packs::Tet10Packs(const TetMesh& mesh, std::span<const Solid> solid)
         }
 }
 
-void Tet10Packs::append(const TetMesh& mesh, const Solid& solid, TetShape shape,
+void Tet10Packs::append(const TetMesh& mesh, const Solid& solid, std::size_t slab, TetShape shape,
                         std::span<const int> elements) {
     if (elements.empty())
         return;
     const bool is_curved = shape == TetShape::curved;
-    const TetBlock block{solid, shape, is_curved ? curved_.size() : straight_.size(),
-                         (elements.size() + kPackWidth - 1) / kPackWidth, elements.size()};
+    const TetBlock block{slab,
+                         solid,
+                         shape,
+                         is_curved ? curved_.size() : straight_.size(),
+                         (elements.size() + kPackWidth - 1) / kPackWidth,
+                         elements.size()};
     block_.push_back(block);
     if (is_curved)
         curved_.resize(block.first + block.packs);

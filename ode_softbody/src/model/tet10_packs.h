@@ -39,7 +39,7 @@ public:
     std::span<const double> mass() const noexcept { return mass_; }
 
 private:
-    void append(const TetMesh& mesh, const Solid& solid, TetShape shape,
+    void append(const TetMesh& mesh, const Solid& solid, std::size_t slab, TetShape shape,
                 std::span<const int> elements);
 
     std::vector<TetBlock> block_;

@@ -6,6 +6,9 @@
 namespace ode::soft {
 namespace {
 
+// Some microseconds of work: joining threads takes half of one.
+constexpr std::size_t kLeastSlab = 300;
+
 void fill(Tet4Pack& pack, int lane, const TetMesh& mesh, std::size_t e, bool counts) {
     const auto node = mesh.nodes_of(e);
     Mat3 edges;
@@ -32,25 +35,33 @@ Tet4Packs::Tet4Packs(const TetMesh& mesh, std::span<const Solid> solid) : mass_(
         throw InputError(format("linear tetrahedra were asked of a mesh of order %d: give the "
                                 "linear mesh or choose quadratic ones",
                                 mesh.order));
-    const auto order = order_elements(mesh, solid.size());
-    for (std::size_t s = 0; s < solid.size(); ++s) {
-        const auto& list = order[s];
-        if (list.empty())
-            continue;
-        const TetBlock block{solid[s], TetShape::linear, pack_.size(),
-                             (list.size() + kPackWidth - 1) / kPackWidth, list.size()};
-        pack_.resize(pack_.size() + block.packs);
-        for (std::size_t i = 0; i < block.packs * kPackWidth; ++i) {
-            const bool counts = i < list.size();
-            fill(pack_[block.first + i / kPackWidth], static_cast<int>(i % kPackWidth), mesh,
-                 static_cast<std::size_t>(counts ? list[i] : list.back()), counts);
-        }
-        block_.push_back(block);
-        for (std::size_t e = 0; e < block.elements; ++e) {
-            const Element el = element(block, e);
-            for (const int node : el.node)
-                mass_[static_cast<std::size_t>(node)] += block.solid.density * el.weight[0] / 4;
-        }
+    const std::vector<ElementSlab> slabs = order_elements(mesh, solid.size(), kLeastSlab);
+    for (std::size_t slab = 0; slab < slabs.size(); ++slab)
+        for (std::size_t s = 0; s < solid.size(); ++s)
+            append(mesh, solid[s], slab, slabs[slab].of_solid[s]);
+}
+
+void Tet4Packs::append(const TetMesh& mesh, const Solid& solid, std::size_t slab,
+                       std::span<const int> elements) {
+    if (elements.empty())
+        return;
+    const TetBlock block{slab,
+                         solid,
+                         TetShape::linear,
+                         pack_.size(),
+                         (elements.size() + kPackWidth - 1) / kPackWidth,
+                         elements.size()};
+    pack_.resize(pack_.size() + block.packs);
+    for (std::size_t i = 0; i < block.packs * kPackWidth; ++i) {
+        const bool counts = i < elements.size();
+        fill(pack_[block.first + i / kPackWidth], static_cast<int>(i % kPackWidth), mesh,
+             static_cast<std::size_t>(counts ? elements[i] : elements.back()), counts);
+    }
+    block_.push_back(block);
+    for (std::size_t e = 0; e < block.elements; ++e) {
+        const Element el = element(block, e);
+        for (const int node : el.node)
+            mass_[static_cast<std::size_t>(node)] += block.solid.density * el.weight[0] / 4;
     }
 }
 

@@ -10,8 +10,7 @@
 namespace ode::soft {
 
 /// Linear tetrahedra made ready for the force kernels, with what does not depend on the
-/// constitutive law. Elements are sorted by solid, then for the cache; nodes keep the mesh's
-/// numbers.
+/// constitutive law. Elements are in the order of order_elements(); nodes keep the mesh's numbers.
 class Tet4Packs {
 public:
     using Element = TetElement<4, 1>;
@@ -35,6 +34,9 @@ public:
     std::span<const double> mass() const noexcept { return mass_; }
 
 private:
+    void append(const TetMesh& mesh, const Solid& solid, std::size_t slab,
+                std::span<const int> elements);
+
     std::vector<TetBlock> block_;
     AlignedVector<Tet4Pack> pack_;
     std::vector<double> mass_;

@@ -6,8 +6,9 @@
 
 namespace ode::soft {
 
-/// Elements of one solid and shape in a list of packs.
+/// Elements of one slab, solid and shape in a list of packs.
 struct TetBlock {
+    std::size_t slab; ///< see order_elements()
     Solid solid;
     TetShape shape;
     std::size_t first; ///< pack

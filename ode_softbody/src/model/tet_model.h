@@ -41,9 +41,12 @@ private:
     };
 
     std::vector<int> connectivity() const;
+    DeformationRange add_slab(std::size_t slab, const NodeArray& position,
+                              const NodeArray& velocity, NodeArray& force) const noexcept;
 
     Packs packs_;
-    std::vector<Part> part_; ///< one a block
+    std::vector<Part> part_;              ///< one a block
+    std::vector<std::size_t> slab_begin_; ///< first block of each slab, and the number of blocks
 };
 
 } // namespace ode::soft

@@ -1,31 +1,57 @@
 #pragma once
 
+#include "base/tasks.h"
 #include "model/block_matrix.h"
 #include "model/element_frequency.h"
+#include "model/element_order.h"
 #include "model/strain_extremes.h"
 #include "model/tet_model.h"
 #include "model/viscous_tangent.h"
+
+#include <array>
 
 namespace ode::soft {
 
 template <class Law, class Packs>
 TetModel<Law, Packs>::TetModel(const TetMesh& mesh, std::span<const Solid> solid, Isa isa)
     : packs_(mesh, solid) {
-    for (const TetBlock& block : packs_.blocks())
+    for (const TetBlock& block : packs_.blocks()) {
+        if (block.slab == slab_begin_.size())
+            slab_begin_.push_back(part_.size());
         part_.push_back(
             {Law::kernel(isa, block.shape, block.solid.is_viscous()), Law::constants(block.solid)});
+    }
+    slab_begin_.push_back(part_.size());
+}
+
+template <class Law, class Packs>
+DeformationRange TetModel<Law, Packs>::add_slab(std::size_t slab, const NodeArray& position,
+                                                const NodeArray& velocity,
+                                                NodeArray& force) const noexcept {
+    DeformationRange range = kNoDeformation;
+    for (std::size_t i = slab_begin_[slab]; i < slab_begin_[slab + 1]; ++i) {
+        const TetBlock& block = packs_.blocks()[i];
+        part_[i].add(packs_.pack(block), block.packs, part_[i].constants, position.data(),
+                     velocity.data(), force.data(), range);
+    }
+    return range;
 }
 
 template <class Law, class Packs>
 StrainExtremes TetModel<Law, Packs>::add_force(const NodeArray& position, const NodeArray& velocity,
                                                NodeArray& force) const noexcept {
-    DeformationRange range = kNoDeformation;
-    for (std::size_t i = 0; i < part_.size(); ++i) {
-        const TetBlock& block = packs_.blocks()[i];
-        part_[i].add(packs_.pack(block), block.packs, part_[i].constants, position.data(),
-                     velocity.data(), force.data(), range);
-    }
-    return strain_extremes(range);
+    const std::size_t slabs = slab_begin_.size() - 1;
+    if (slabs == 1)
+        return strain_extremes(add_slab(0, position, velocity, force));
+    std::array<DeformationRange, kMostSlabs> range;
+    for (std::size_t parity = 0; parity < 2; ++parity)
+        in_pieces(slabs / 2, [&](std::size_t i) {
+            const std::size_t slab = 2 * i + parity;
+            range[slab] = add_slab(slab, position, velocity, force);
+        });
+    for (std::size_t slab = 1; slab < slabs; ++slab)
+        range[0] = widened(range[0], range[slab]);
+    return strain_extremes(range[0]);
 }
 
 template <class Law, class Packs>

@@ -26,6 +26,9 @@ constexpr int kWatchInterval = 10;
 // A step with more substeps takes minutes at best: it was meant otherwise.
 constexpr double kMostSubsteps = 1e7;
 
+// Work of a substep that is done side by side, in Body::substep_work(): 20 us.
+constexpr std::size_t kWorthwhile = 2000;
+
 bool none_moves(std::span<const std::unique_ptr<Body>> bodies) noexcept {
     return std::none_of(bodies.begin(), bodies.end(), [](const auto& b) { return b->moves(); });
 }
@@ -49,6 +52,7 @@ Body& SoftWorld::create_body(const TetMesh& mesh, std::span<const Solid> solids)
         throw InputError("the space of the soft world is gone; make a soft world in another one");
     Body& body = *body_.emplace_back(std::make_unique<Body>(*this, mesh, solids));
     body.number_ = made_++;
+    moving_.reserve(body_.size());
     body.set_auto_disable(dWorldGetAutoDisableFlag(world_) != 0);
     return body;
 }
@@ -218,6 +222,7 @@ void SoftWorld::look_ahead(bool first) noexcept {
 bool SoftWorld::advance(double h, bool again) noexcept {
     if (none_moves(body_))
         return true;
+    const TasksScope tasks(tasks_.get());
     dVector3 g;
     dWorldGetGravity(world_, g);
     for (const auto& body : body_)
@@ -254,16 +259,28 @@ bool SoftWorld::advance(double h, bool again) noexcept {
     return true;
 }
 
+void SoftWorld::list_moving() noexcept {
+    moving_.clear();
+    std::size_t all = 0, most = 0;
+    for (const auto& body : body_)
+        if (body->moves()) {
+            moving_.push_back(body.get());
+            all += body->substep_work();
+            most = std::max(most, body->substep_work());
+        }
+    // A body that is most of the work is cut in pieces itself.
+    side_by_side_ = tasks_ && all >= kWorthwhile && most <= all / 2;
+}
+
 long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
+    list_moving();
     const bool observed = std::any_of(observer_.begin(), observer_.end(), [](const auto& o) {
         return o && (o->wants_substeps() || o->wants_pushes());
     });
     long looked = 0;
     for (long i = 1; i <= substeps; ++i) {
         const bool look = i % kWatchInterval == 0 || i == 1 || i == substeps;
-        for (const auto& body : body_)
-            if (body->moves())
-                body->begin_substep(look);
+        each_moving([&](Body& body) { body.begin_substep(look); });
         const ContactTally tally = exchange_.add_forces(dt);
         stats_.contact_tests += tally.tests;
         stats_.contact_points += tally.bearing;
@@ -274,15 +291,16 @@ long SoftWorld::run_substeps(double start, double dt, long substeps) noexcept {
         stats_.soft_tests += soft.tests;
         stats_.contact_points += soft.bearing;
         exchange_.advance(dt);
-        for (const auto& body : body_)
-            if (body->moves()) {
-                if (look && body->auto_disable())
-                    body->watch_rest(static_cast<double>(i - looked) * dt);
-                body->advance(dt);
-                stats_.element_steps += body->rings() ? 0 : body->mesh().element_count();
-                stats_.modal_substeps += body->rings();
-                ++stats_.body_substeps;
-            }
+        each_moving([&](Body& body) {
+            if (look && body.auto_disable())
+                body.watch_rest(static_cast<double>(i - looked) * dt);
+            body.advance(dt);
+        });
+        for (const Body* body : moving_) {
+            stats_.element_steps += body->rings() ? 0 : body->mesh().element_count();
+            stats_.modal_substeps += body->rings();
+        }
+        stats_.body_substeps += moving_.size();
         attachments_.follow(exchange_);
         ++stats_.substeps;
         if (look)

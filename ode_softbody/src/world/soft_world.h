@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/live_id.h"
+#include "base/tasks.h"
 #include "base/types.h"
 #include "mesh/tet_mesh.h"
 #include "model/solid.h"
@@ -97,6 +98,11 @@ public:
         soft_exchange_.set_method(method);
     }
 
+    /// Who does the pieces of a substep; nullptr, at first: the thread that steps. The motion is
+    /// the same, bit for bit.
+    const Tasks* tasks() const noexcept { return tasks_.get(); }
+    void set_tasks(std::unique_ptr<Tasks> tasks) noexcept { tasks_ = std::move(tasks); }
+
     Attachments& attachments() noexcept { return attachments_; }
 
     BasisCabinet& basis_cabinet() noexcept { return bases_; }
@@ -139,6 +145,17 @@ private:
     /// From `start` [s]. @return substeps taken: fewer when a body needs shorter ones from now on,
     /// none when one went unstable.
     long run_substeps(double start, double dt, long substeps) noexcept;
+    /// Who moves in the substeps to come, and whether they are to be moved side by side.
+    void list_moving() noexcept;
+    template <class Visit>
+    void each_moving(Visit visit) noexcept {
+        if (side_by_side_) {
+            in_pieces(moving_.size(), [&](std::size_t i) { visit(*moving_[i]); });
+            return;
+        }
+        for (Body* body : moving_)
+            visit(*body);
+    }
     /// Looks at the bodies; if one is unstable takes all of them back to the start of the step.
     bool all_sound() noexcept;
     /// Observers may be added and removed by one of them meanwhile.
@@ -176,6 +193,9 @@ private:
     bool nodes_watched_ = false; ///< by observers that take no modes
     Slumber slumber_;
     std::vector<std::unique_ptr<Body>> body_;
+    std::vector<Body*> moving_; ///< of them, in the present substeps
+    bool side_by_side_ = false;
+    std::unique_ptr<Tasks> tasks_;
     std::vector<std::unique_ptr<Observer>> observer_;      ///< null: removed while busy
     std::vector<std::unique_ptr<Observer>> past_observer_; ///< removed, maybe still on the stack
     bool calling_ = false;                                 ///< observers

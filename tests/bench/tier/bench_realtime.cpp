@@ -2,12 +2,17 @@
 // explicit one's.
 #include "physics/tier/tier_run.h"
 
+#include "base/thread_pool.h"
+
 #include <CLI/CLI.hpp>
 
 #include <malloc.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <numbers>
 #include <span>
 
@@ -154,10 +159,52 @@ void print_elements(std::span<const int> cells) {
     }
 }
 
+struct Crowd {
+    const char* name;
+    TetMesh mesh;
+    int order;
+    int bodies;
+};
+
+/// Node by node in flight, on one thread and on two: the least time of a step by the clock, steps
+/// of both in turn.
+void print_threads(std::span<const Crowd> crowds, int repeats) {
+    using Clock = std::chrono::steady_clock;
+    for (const Crowd& crowd : crowds) {
+        std::unique_ptr<TierRun> run[2];
+        double best[2] = {INFINITY, INFINITY};
+        for (int t = 0; t < 2; ++t) {
+            run[t] =
+                std::make_unique<TierRun>(crowd.mesh, TierChoice::explicit_space, crowd.order, 0);
+            run[t]->world().set_tasks(t == 1 ? std::make_unique<ThreadPool>(2) : nullptr);
+            for (int i = 1; i < crowd.bodies; ++i) {
+                Body& twin = run[t]->world().create_body(crowd.mesh, run[t]->body().solids());
+                twin.set_form(run[t]->body().form());
+                twin.move_to({0.3 * i, 0, 0});
+            }
+            run[t]->body().add_force(0, {1, 0, 0});
+        }
+        const double step = 50 * run[0]->body().substep();
+        for (int i = 0; i < repeats; ++i)
+            for (int t = 0; t < 2; ++t) {
+                const auto start = Clock::now();
+                run[t]->step(step);
+                const double taken = std::chrono::duration<double>(Clock::now() - start).count();
+                best[t] = std::min(best[t], taken);
+            }
+        const NodeState &one = run[0]->body().state(), &two = run[1]->body().state();
+        const std::size_t bytes = sizeof(double) * NodeArray::kStride * one.position.size();
+        const bool same = std::memcmp(one.position.data(), two.position.data(), bytes) == 0;
+        std::printf("| %s | %.4g | %.4g | %.2f | %s |\n", crowd.name, 2e4 * best[0], 2e4 * best[1],
+                    best[0] / best[1], same ? "none, bit for bit" : "NOT THE SAME");
+        std::fflush(stdout);
+    }
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Run time of the tiers, each with its waveform error; half a minute");
+    CLI::App app("Run time of the tiers, each with its waveform error; a minute");
     bool brief = false;
     app.add_flag("--brief", brief, "Linear elements and short runs only");
     CLI11_PARSE(app, argc, argv);
@@ -180,5 +227,15 @@ int main(int argc, char** argv) {
                 "|---|---|---|\n");
     constexpr int kCells[] = {6, 12, 26, 55};
     print_elements(brief ? std::span(kCells).first(2) : std::span(kCells));
+    const TetMesh bowl = make_bowl(0.1, 0.005, 1.4, 8, 48, 1);
+    const TetMesh cube = make_box({0.2, 0.2, 0.2}, 20, 20, 20);
+    const Crowd crowds[] = {{"bowl, 1152 linear elements", bowl, 1, 1},
+                            {"bowl, 1152 quadratic elements", bowl, 2, 1},
+                            {"cube, 48000 linear elements", cube, 1, 1},
+                            {"cube, 48000 quadratic elements", cube, 2, 1},
+                            {"16 bowls of linear elements", bowl, 1, 16}};
+    std::printf("\n| explicit | us a substep, 1 thread | 2 threads | ratio | difference |\n"
+                "|---|---|---|---|---|\n");
+    print_threads(brief ? std::span(crowds).first(2) : std::span(crowds), brief ? 3 : 30);
     return 0;
 }
