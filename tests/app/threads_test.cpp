@@ -35,7 +35,7 @@ Outcome fall(bool many, const std::function<void(dSoftWorldID)>& set_threads) {
             dSoftBodySetTier(body.back(), i % 3 == 0 ? "modal" : "explicit");
         }
     } else {
-        const soft::MeshHandle mesh(dSoftMeshCreateBox(0.4, 0.1, 0.1, 16, 4, 4));
+        const soft::MeshHandle mesh(dSoftMeshCreateBox(0.4, 0.1, 0.1, 24, 4, 4));
         const dSoftSolid rubber = soft_rubber();
         body.push_back(dSoftBodyCreate(world, mesh, &rubber));
         dSoftBodySetOrder(body.back(), 2);

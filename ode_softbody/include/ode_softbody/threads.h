@@ -4,7 +4,7 @@
  * A step works on the thread that calls it, until more are given. Motion and sound are the same,
  * bit for bit, whatever their number and whoever runs them: bodies are moved side by side, and one
  * that is most of the work is cut into parts that depend on its mesh alone. Bodies of less than
- * about 1200 linear or 240 quadratic elements are not cut. Contacts and observers stay on the
+ * 2400 linear or 2000 quadratic elements are not cut. Contacts and observers stay on the
  * calling thread.
  */
 #ifndef ODE_SOFTBODY_THREADS_H

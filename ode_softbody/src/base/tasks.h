@@ -65,6 +65,9 @@ void in_pieces(std::size_t count, DoPiece&& do_piece) noexcept {
         &work, count);
 }
 
+/// Of a range of nodes that one pass goes through: some microseconds.
+inline constexpr std::size_t kLeastNodes = 2000;
+
 /// do_range(first, last) that cover [0, size), none shorter than `least` unless it is the only one.
 /// For work whose result doesn't depend on where ranges end.
 template <class DoRange>

@@ -9,9 +9,13 @@
 
 namespace ode::soft {
 
-/// Threads that take pieces as they come. A substep has only microseconds of work between two
-/// joins, so that idle threads look for the next piece for a while before they sleep; whoever joins
-/// does pieces itself, and waits for nobody but a thread amidst one.
+/// Threads that do pieces side by side. A substep has only microseconds of work between two joins,
+/// so that idle threads look for the next piece for a while before they sleep; whoever joins waits
+/// for nobody but a thread amidst a piece.
+///
+/// Each thread has a stretch of the pieces that is its own, the same from job to job: what they
+/// write then stays in its core's cache, where moving it from core to core would cost as much as
+/// the work. Who is done takes from the end of other stretches.
 class ThreadPool final : public Tasks {
 public:
     /// @param threads  the caller's included. @throws std::system_error when there are none to
@@ -20,21 +24,25 @@ public:
     ~ThreadPool() override;
 
     void run(Piece piece, void* context, std::size_t count) noexcept override;
-    int threads() const noexcept override { return static_cast<int>(worker_.size()) + 1; }
+    int threads() const noexcept override { return static_cast<int>(stretch_.size()); }
 
 private:
-    void work() noexcept;
+    /// Pieces not yet taken: the first in the upper half of the bits, the end in the lower one.
+    struct alignas(64) Stretch {
+        std::atomic<std::uint64_t> left{0};
+    };
+
+    void work(std::size_t thread) noexcept;
     /// @return whether there was a piece to take.
-    bool take_piece() noexcept;
+    bool take_piece(std::size_t thread) noexcept;
+    bool any_left() const noexcept;
     void stop() noexcept;
 
-    // One at a time, written while nobody has a piece of it.
+    // One job at a time, written while nobody has a piece of it. Whoever takes a piece may read it:
+    // it can't end before that piece is done. So a thread that comes late can't mistake it.
     Piece piece_ = nullptr;
     void* context_ = nullptr;
-
-    // Pieces not yet taken. Whoever takes one may read the job: it can't end before that piece is
-    // done. So no count of jobs is needed to tell a late thread from one in time.
-    alignas(64) std::atomic<std::size_t> left_{0};
+    std::vector<Stretch> stretch_; ///< one a thread, the caller's first
     alignas(64) std::atomic<std::size_t> undone_{0};
     alignas(64) std::atomic<std::uint32_t> rung_{0}; ///< changes when sleepers are called
     std::atomic<int> sleepers_{0};

@@ -22,8 +22,6 @@ KickDrift kick_drift_kernel();
 
 namespace {
 
-constexpr std::size_t kLeastRange = 1000; ///< nodes: about a microsecond
-
 KickDrift kernel() noexcept {
     switch (active_isa()) {
 #if defined(__x86_64__)
@@ -43,7 +41,7 @@ void run(const NodeInertia& inertia, double h, double drift, const NodeArray& fo
     const double s = inertia.alpha * h;
     const double gain = s == 0 ? h : h * (-std::expm1(-s) / s);
     const KickDriftFactors by{std::exp(-s), gain, drift};
-    in_ranges(velocity.size(), kLeastRange, [&](std::size_t first, std::size_t last) {
+    in_ranges(velocity.size(), kLeastNodes, [&](std::size_t first, std::size_t last) {
         const std::size_t at = NodeArray::kStride * first;
         run_kernel(last - first, inertia.inverse_mass.data() + first, by, force.data() + at,
                    velocity.data() + at, position ? position + at : nullptr);

@@ -6,8 +6,8 @@
 namespace ode::soft {
 namespace {
 
-// Some microseconds of work: joining threads takes half of one.
-constexpr std::size_t kLeastSlab = 60;
+// As for linear elements: eight times the work of one, but more nodes at the border.
+constexpr std::size_t kLeastSlab = 500;
 
 Eigen::Vector4d gauss_point(int q) {
     Eigen::Vector4d l = Eigen::Vector4d::Constant(kGaussFar);

@@ -1,5 +1,6 @@
 #include "world/body.h"
 
+#include "base/tasks.h"
 #include "collide/ray.h"
 #include "integrate/mass_damping.h"
 #include "world/soft_world.h"
@@ -252,7 +253,10 @@ void Body::begin_substep(bool look) noexcept {
         looking_ = look;
         return;
     }
-    std::copy_n(load_.data(), NodeArray::kStride * load_.size(), force_.data());
+    in_ranges(load_.size(), kLeastNodes, [&](std::size_t first, std::size_t last) {
+        const std::size_t at = NodeArray::kStride * first;
+        std::copy_n(load_.data() + at, NodeArray::kStride * (last - first), force_.data() + at);
+    });
     const StrainExtremes now = integrator_->evaluate(*model_, state_, force_);
     note(now);
     elastic_ = now.energy;
