@@ -61,6 +61,11 @@ void add_stage(CLI::App& command, Stage& stage) {
     command.add_option("--seconds", stage.seconds, "Simulated time [s]")
         ->check(CLI::Range(1e-3, 3600.0))
         ->capture_default_str();
+    command
+        .add_option("--threads", stage.threads,
+                    "Threads that step large bodies, 0: one a core; changes no sample")
+        ->check(CLI::Range(0, 64))
+        ->capture_default_str();
     command.add_option("--radiation", stage.radiation, "How motion becomes pressure")
         ->check(CLI::IsMember({"monopole", "rayleigh", "paper", "kirchhoff", "transfer"}))
         ->capture_default_str();
@@ -79,6 +84,8 @@ Performance perform(scenes::World& world, const Stage& stage, bool quiet, const 
     const SinkHandle memory(scenes::made(dSoundSinkCreateMemory()));
     const SinkHandle live(stage.live ? scenes::made(dSoundSinkCreateOpenAL()) : nullptr);
     ode::sound::WorldHandle sound(scenes::made(dSoundWorldCreate(world.soft())));
+    if (!dSoftWorldSetThreads(world.soft(), stage.threads))
+        throw scenes::Refused("no such threads");
     if (!dSoundSetRadiation(sound, stage.radiation.c_str()) ||
         !dSoundSetSampling(sound, stage.sampling.c_str()))
         throw scenes::Refused("no such sound");

@@ -21,6 +21,7 @@ struct Stage {
     std::string out;         ///< WAV
     std::string plot;        ///< PNG
     bool live = false;       ///< through OpenAL, too
+    int threads = 1;         ///< threads.h
     std::string radiation = "monopole";
     std::string sampling = "sinc";
     double full_scale = 20;      ///< that becomes 1.0 in the file [Pa]
@@ -30,7 +31,7 @@ struct Stage {
 /// What demos differ in: @param step  of ODE [s]. @param ear  midpoint [m]
 Stage make_stage(std::string name, double seconds, double step, std::array<double, 3> ear);
 
-/// Adds --out, --plot, --live, --seconds, --radiation, --sampling, --full-scale.
+/// Adds --out, --plot, --live, --seconds, --threads, --radiation, --sampling, --full-scale.
 void add_stage(CLI::App& command, Stage& stage);
 
 /// What a run gives.
