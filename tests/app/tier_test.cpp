@@ -14,14 +14,15 @@ using namespace ode::test;
 
 struct Tier : testing::Test, RingingBar {
     Tier() : RingingBar(1e-7) { dSoftBodySetTier(body, "auto"); }
-    std::string tier_after(int steps) {
+    dSoftTierStatus status_after(int steps) {
         for (int i = 0; i < steps; ++i)
             step(1e-3);
         dSoftTierStatus status = {};
         status.struct_size = sizeof status;
         EXPECT_TRUE(dSoftBodyGetTierStatus(body, &status));
-        return status.tier;
+        return status;
     }
+    std::string tier_after(int steps) { return status_after(steps).tier; }
 };
 
 TEST_F(Tier, KeepsTheWaveformTolerance) {
@@ -30,6 +31,24 @@ TEST_F(Tier, KeepsTheWaveformTolerance) {
     EXPECT_EQ(tier_after(4), "explicit");
     EXPECT_TRUE(dSoftBodySetWaveformTolerance(body, 0.05));
     EXPECT_EQ(tier_after(6), "modal");
+}
+
+TEST_F(Tier, TellsWhatItCosts) {
+    dSoftBodySetTier(body, "explicit");
+    const dReal nodes = status_after(2).cost;
+    dSoftStatus body_status = {};
+    body_status.struct_size = sizeof body_status;
+    ASSERT_TRUE(dSoftBodyGetStatus(body, &body_status));
+    EXPECT_NEAR(nodes, 60 * 1e-8 / body_status.substep, 0.01 * nodes); // elements, 10 ns each
+    dSoftBodySetTier(body, "modal");
+    const dSoftTierStatus modal = status_after(2);
+    EXPECT_STREQ(modal.tier, "modal");
+    EXPECT_GT(modal.cost, 0);
+    EXPECT_LT(modal.cost, nodes / 100);
+    dSoftBodyDisable(body);
+    const dSoftTierStatus asleep = status_after(1);
+    EXPECT_STREQ(asleep.tier, "asleep");
+    EXPECT_EQ(asleep.cost, 0);
 }
 
 TEST_F(Tier, RefusesAToleranceThatIsNone) {

@@ -77,9 +77,10 @@ int dSoftBodyGetTierStatus(dSoftBodyID id, dSoftTierStatus* status) {
     if (!body)
         return 0;
     dSoftTierStatus all{};
-    all.tier = body->rings() ? "modal" : "explicit";
+    all.tier = !body->moves() ? "asleep" : body->rings() ? "modal" : "explicit";
     all.modes = body->rings() ? static_cast<int>(body->modal_motion()->basis().modes) : 0;
     all.waveform_error = body->linear_error();
     all.changes = static_cast<int>(body->tier_changes());
+    all.cost = body->cost();
     return copy_out(__func__, all, status);
 }

@@ -191,6 +191,7 @@ public:
     std::size_t bearing_points() const noexcept { return bearing_points_; }
     /// What a substep takes without contacts, in force evaluations of a linear element: 10 ns.
     std::size_t substep_work() const noexcept;
+    double cost() const noexcept; ///< of it, in seconds a second simulated, as it moves now
 
     void* data = nullptr; ///< the application's
     void* id() const noexcept { return id_.value(); }

@@ -97,8 +97,10 @@ typedef struct dSoundStats {
     unsigned long rays;              /**< cast to see what is hidden */
     dReal latency; /**< longest mean time from the path's end to the driver of a live sink [s]; the
                         path's own, 2.1 ms at 48 kHz, comes before */
-    unsigned long alarms; /**< raised, see dSoundSetAlarm() */
-    dReal alarm_time;     /**< of the last one [s]; 0: none */
+    unsigned long alarms;            /**< raised, see dSoundSetAlarm() */
+    dReal alarm_time;                /**< of the last one [s]; 0: none */
+    unsigned long mode_samples;      /**< modes of soft bodies given off, at each sample */
+    unsigned long inaudible_samples; /**< of these, left out: 20 dB below hearing at every ear */
 } dSoundStats;
 DSOUND_API int dSoundGetStats(dSoundWorldID world, dSoundStats* stats);
 

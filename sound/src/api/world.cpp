@@ -206,6 +206,8 @@ int dSoundGetStats(dSoundWorldID world, dSoundStats* stats) {
         all.rms = count.rms;
         all.alarms = world->world.alarm().count();
         all.alarm_time = world->world.alarm().last();
+        all.mode_samples = count.mode_samples;
+        all.inaudible_samples = count.inaudible_samples;
         all.rays = world->world.occlusion().rays();
         // An app built against an older header gets the fields that it knows.
         std::memcpy(stats, &all, std::min<std::size_t>(stats->struct_size, sizeof all));

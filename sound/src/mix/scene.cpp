@@ -220,7 +220,17 @@ void Scene::on_facets(const FacetBlock& block) noexcept {
         listener->send(own);
 }
 
+double Scene::nearest_ear(const Vec3& place) const noexcept {
+    double least = HUGE_VAL;
+    for (const auto& listener : listeners_)
+        for (const Vec3& ear : listener->places())
+            least = std::min(least, (ear - place).squaredNorm());
+    return std::sqrt(least);
+}
+
 void Scene::on_modes(const ModalBlock& block) noexcept {
+    count_.mode_samples += block.amplitude.size();
+    count_.inaudible_samples += sounding_->voice->modes() - block.amplitude.size();
     ModalBlock own = block;
     own.source = sounding_->source.get();
     own.gain *= next_gain(settings_.send_rate());

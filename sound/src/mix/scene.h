@@ -20,6 +20,8 @@ public:
         unsigned long substeps = 0;
         unsigned long gathers = 0;
         unsigned long modal_views = 0;
+        unsigned long mode_samples = 0;      ///< modes times samples given off
+        unsigned long inaudible_samples = 0; ///< left out of them
         unsigned long frames = 0;
         double peak = 0.0; ///< [Pa]
         double rms = 0.0;  ///< [Pa]
@@ -61,7 +63,7 @@ public:
         if (!own.voice)
             own.voice = std::make_unique<ModalVoice>(wanted, settings_.send_rate());
         sounding_ = &own;
-        own.voice->push(view, *this);
+        own.voice->push(view, nearest_ear(view.center), *this);
     }
     /// A rigid body that sounds when it is struck; the scene's, until end_body(), set() or the last
     /// listener goes.
@@ -129,6 +131,7 @@ private:
     void on_modes(const ModalBlock& block) noexcept override;
     void on_modal_run(const ModalRun& run) noexcept override;
     void end_voice(Body& body) noexcept;
+    double nearest_ear(const Vec3& place) const noexcept; ///< [m]; infinite: there is none
     double next_gain(double samples_per_second) noexcept;
     Body* known(const void* body) noexcept;
     Body& find(const void* body, std::span<const int> triangle);

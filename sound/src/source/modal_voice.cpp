@@ -47,7 +47,7 @@ void ModalVoice::emit(std::int64_t sample, const double* amplitude, const double
     const double fade = fade_at(time);
     const double sign = state_ == State::kFading ? 1.0 : -1.0;
     const bool fades = (entering_ || state_ == State::kFading) && fade > 0.0;
-    for (std::size_t k = 0; k < sent_rate_.size(); ++k) {
+    for (std::size_t k = 0; k < heard_; ++k) {
         const double shift = fades ? sign * fade : 0.0;
         sent_amplitude_[k] = static_cast<float>(amplitude[k] + shift * break_amplitude_[k]);
         sent_rate_[k] = static_cast<float>(rate[k] + shift * break_rate_[k]);
@@ -58,8 +58,31 @@ void ModalVoice::emit(std::int64_t sample, const double* amplitude, const double
     else if (state_ == State::kFading)
         heard = fade;
     way_.listen(heard);
-    out.on_modes({sample, center_, rotation_, sent_amplitude_, sent_rate_, &model_->table, this,
-                  1.0, nullptr, &model_->rigid, way_.velocity(), way_.slope()});
+    out.on_modes({sample,
+                  center_,
+                  rotation_,
+                  {sent_amplitude_.data(), heard_},
+                  {sent_rate_.data(), heard_},
+                  &model_->table,
+                  this,
+                  1.0,
+                  nullptr,
+                  &model_->rigid,
+                  way_.velocity(),
+                  way_.slope()});
+}
+
+std::size_t ModalVoice::audible(const ModalView& view, double nearest) const noexcept {
+    const double least =
+        kInaudible * std::max(nearest - model_->table.radius, model_->table.near_limit());
+    std::size_t heard = modes();
+    for (; heard > 0; --heard) {
+        const std::size_t k = heard - 1;
+        const double w = model_->omega[k];
+        if (model_->level[k] * std::hypot(w * view.amplitude[k], view.rate[k]) * w > least)
+            break;
+    }
+    return heard;
 }
 
 void ModalVoice::start(const ModalView& view) {
@@ -79,8 +102,8 @@ void ModalVoice::start(const ModalView& view) {
 void ModalVoice::ring_back(const ModalView& view, std::int64_t sample, BlockSink& out) {
     std::copy(view.amplitude.begin(), view.amplitude.end(), held_amplitude_.begin());
     std::copy(view.rate.begin(), view.rate.end(), held_rate_.begin());
-    resonators_.evolve(static_cast<double>(sample) / rate_ - view.time, held_amplitude_.data(),
-                       held_rate_.data());
+    resonators_.evolve(static_cast<double>(sample) / rate_ - view.time, heard_,
+                       held_amplitude_.data(), held_rate_.data());
     emit_at(view, sample, out);
 }
 
@@ -90,25 +113,25 @@ void ModalVoice::ring_on(const ModalView& view, std::int64_t first, std::int64_t
     const double span = view.time - seen_;
     ring_amplitude_ = amplitude_;
     ring_rate_ = rate_of_;
-    resonators_.evolve(lead, ring_amplitude_.data(), ring_rate_.data());
+    resonators_.evolve(lead, heard_, ring_amplitude_.data(), ring_rate_.data());
     // What free ringing misses (a push, modes that a spin has mixed) comes in little by little.
     miss_amplitude_ = amplitude_;
     miss_rate_ = rate_of_;
-    resonators_.evolve(span, miss_amplitude_.data(), miss_rate_.data());
-    for (std::size_t k = 0; k < miss_rate_.size(); ++k) {
+    resonators_.evolve(span, heard_, miss_amplitude_.data(), miss_rate_.data());
+    for (std::size_t k = 0; k < heard_; ++k) {
         miss_amplitude_[k] = view.amplitude[k] - miss_amplitude_[k];
         miss_rate_[k] = view.rate[k] - miss_rate_[k];
     }
-    undamped_.evolve(lead - span, miss_amplitude_.data(), miss_rate_.data());
+    undamped_.evolve(lead - span, heard_, miss_amplitude_.data(), miss_rate_.data());
     for (std::int64_t sample = first; sample <= last; ++sample) {
         const double share = (static_cast<double>(sample) / rate_ - seen_) / span;
-        for (std::size_t k = 0; k < miss_rate_.size(); ++k) {
+        for (std::size_t k = 0; k < heard_; ++k) {
             held_amplitude_[k] = ring_amplitude_[k] + share * miss_amplitude_[k];
             held_rate_[k] = ring_rate_[k] + share * miss_rate_[k];
         }
         emit_at(view, sample, out);
-        resonators_.tick(ring_amplitude_.data(), ring_rate_.data());
-        undamped_.tick(miss_amplitude_.data(), miss_rate_.data());
+        resonators_.tick(heard_, ring_amplitude_.data(), ring_rate_.data());
+        undamped_.tick(heard_, miss_amplitude_.data(), miss_rate_.data());
     }
 }
 
@@ -121,8 +144,12 @@ void ModalVoice::emit_at(const ModalView& view, std::int64_t sample, BlockSink& 
     emit(sample, held_amplitude_.data(), held_rate_.data(), out);
 }
 
-void ModalVoice::push(const ModalView& view, BlockSink& out) {
+void ModalVoice::push(const ModalView& view, double nearest, BlockSink& out) {
+    const std::size_t now = audible(view, nearest);
+    heard_ = std::max(now, heard_at_view_);
+    heard_at_view_ = now;
     if (state_ != State::kRinging || view.time - view.dt > seen_ + 0.5 * view.dt) {
+        heard_ = now;
         start(view);
         center_ = view.center;
         rotation_ = turned_ = view.rotation;

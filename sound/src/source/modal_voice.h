@@ -22,12 +22,18 @@ struct ModalView {
     Vec3 spin = Vec3::Zero();     ///< world [rad/s]
 };
 
+/// Pressure of a mode or a click that is left out [Pa]: 20 dB below the threshold of hearing.
+inline constexpr double kInaudible = 2e-6;
+
 /// What bodies that share their modes share of their sound.
 struct ModalVoiceModel {
     std::vector<double> omega; ///< [rad/s]
     std::vector<double> decay; ///< [1/s]
     TransferTable table;       ///< in the body's frame
     RigidSound rigid;
+    /// Of each mode: pressure at 1 m per unit of its acceleration, mean square of six directions
+    /// [Pa s^2 / (kg^1/2 m)].
+    std::vector<double> level;
 };
 
 /// The sound of a body that moves in its modes: amplitudes at the samples of the grid, which the
@@ -43,16 +49,21 @@ public:
     /// @param rate  of the grid [Hz].
     ModalVoice(std::shared_ptr<const ModalVoiceModel> model, double rate);
 
-    void push(const ModalView& view, BlockSink& out);
+    /// @param nearest  of all ears [m]: from the highest mode down, what is inaudible there is left
+    ///                 out.
+    void push(const ModalView& view, double nearest, BlockSink& out);
     /// No view will come before `time` [s].
     void advance_to(double time, BlockSink& out);
     bool is_silent() const noexcept { return state_ == State::kSilent; }
+    std::size_t modes() const noexcept { return model_->omega.size(); }
     const ModalVoiceModel& model() const noexcept { return *model_; }
 
 private:
     enum class State { kSilent, kRinging, kFading };
 
     void start(const ModalView& view);
+    /// @return modes that are heard at such a distance [m], and all below the highest of them.
+    std::size_t audible(const ModalView& view, double nearest) const noexcept;
     /// What is known between the last view and this one.
     void ring_back(const ModalView& view, std::int64_t sample, BlockSink& out);
     void ring_on(const ModalView& view, std::int64_t first, std::int64_t last, BlockSink& out);
@@ -67,6 +78,8 @@ private:
     double seen_ = 0.0; ///< time of the last view [s]
     double fade_begin_ = 0.0;
     bool entering_ = false;
+    std::size_t heard_ = 0;             ///< modes, between the last view and the next
+    std::size_t heard_at_view_ = 0;     ///< at the last one
     AlignedVector amplitude_, rate_of_; ///< at the last view
     AlignedVector break_amplitude_, break_rate_;
     AlignedVector ring_amplitude_, ring_rate_; ///< scratch: on the grid

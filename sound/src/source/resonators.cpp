@@ -42,11 +42,11 @@ Resonators::Resonators(std::span<const double> omega, std::span<const double> de
     }
 }
 
-void Resonators::evolve(double time, double* amplitude, double* rate) noexcept {
-    for (std::size_t k = 0; k < size(); ++k)
+void Resonators::evolve(double time, std::size_t count, double* amplitude, double* rate) noexcept {
+    for (std::size_t k = 0; k < count; ++k)
         angle_[k] = damped_[k] * time;
-    turn(angle_.data(), static_cast<int>(size()), cosine_.data(), sine_.data());
-    for (std::size_t k = 0; k < size(); ++k) {
+    turn(angle_.data(), static_cast<int>(count), cosine_.data(), sine_.data());
+    for (std::size_t k = 0; k < count; ++k) {
         const double c = cosine_[k], fade = faded(decay_[k] * time);
         const double s = damped_[k] > 0 ? sine_[k] / damped_[k] : 0.0;
         const double q = amplitude[k], v = rate[k];
@@ -55,10 +55,10 @@ void Resonators::evolve(double time, double* amplitude, double* rate) noexcept {
     }
 }
 
-void Resonators::tick(double* amplitude, double* rate) const noexcept {
+void Resonators::tick(std::size_t count, double* amplitude, double* rate) const noexcept {
     const double *a = tick_[0].data(), *b = tick_[1].data();
     const double *c = tick_[2].data(), *d = tick_[3].data();
-    for (std::size_t k = 0; k < size(); ++k) {
+    for (std::size_t k = 0; k < count; ++k) {
         const double q = amplitude[k], v = rate[k];
         amplitude[k] = a[k] * q + b[k] * v;
         rate[k] = c[k] * q + d[k] * v;

@@ -17,10 +17,10 @@ public:
 
     std::size_t size() const noexcept { return omega_.size(); }
 
-    /// Carries amplitudes and rates over a time, which may be negative [s].
-    void evolve(double time, double* amplitude, double* rate) noexcept;
+    /// Carries the first `count` amplitudes and rates over a time, which may be negative [s].
+    void evolve(double time, std::size_t count, double* amplitude, double* rate) noexcept;
     /// The same over one sample.
-    void tick(double* amplitude, double* rate) const noexcept;
+    void tick(std::size_t count, double* amplitude, double* rate) const noexcept;
 
 private:
     AlignedVector omega_, decay_, damped_;

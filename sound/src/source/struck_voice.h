@@ -22,9 +22,6 @@ struct FramePose {
 
 /// What rigid bodies of one shape and material share of their sound.
 struct StruckVoiceModel : ModalVoiceModel {
-    /// Of each mode: pressure at 1 m per unit of its acceleration, mean square of six directions
-    /// [Pa s^2 / (kg^1/2 m)].
-    std::vector<double> level;
     /// What the recurrence adds to q and q' a sample, four rows of `columns` (see Kernels::ring):
     /// the click's columns, the modes', and silent ones up to kModeLanes.
     AlignedFloats step;
@@ -51,8 +48,7 @@ class StruckVoice {
 public:
     static constexpr std::size_t kMostPulses = 24; ///< at a time; a further one cuts the oldest off
     static constexpr std::size_t kMostDrives = 8;
-    static constexpr double kInaudible = 2e-6; ///< [Pa] at 1 m: 20 dB below hearing
-    static constexpr int kEvery = 2;           ///< samples of the grid for one of these
+    static constexpr int kEvery = 2; ///< samples of the grid for one of these
 
     /// @param rate  of audio [Hz].
     StruckVoice(std::shared_ptr<const StruckVoiceModel> model, double rate);

@@ -2,6 +2,7 @@
 //
 // The surface is the issue's: about 432 nodes and 864 triangles, substeps of 0.6 us, two ears at
 // 48 kHz. Mark: 0.8 us a substep, 6 % of an explicit step of 13 us.
+#include "mix/voice_model.h"
 #include "physics/sound/rig.h"
 
 #include <benchmark/benchmark.h>
@@ -74,6 +75,50 @@ void BM_SubstepPaper(benchmark::State& state) {
     substeps(state, Radiation::kPaper, Sampling::kPaper, 1);
 }
 BENCHMARK(BM_SubstepPaper);
+
+/// A bowl's 96 modes, a view a millisecond, at so many metres: where modes are inaudible they cost
+/// nothing. The error is what is left out, at the nearest ear.
+void BM_Modes(benchmark::State& state) {
+    constexpr std::size_t kModes = 96;
+    constexpr double kStep = 1e-3, kRate = 1e-3; // [s], [m/s] of each mode's greatest displacement
+    const Shape shape = make_torus(36, 12);
+    BoundaryMesh mesh;
+    mesh.node = shape.node;
+    for (std::size_t t = 0; t + 2 < shape.triangle.size(); t += 3)
+        mesh.triangle.push_back({shape.triangle[t], shape.triangle[t + 1], shape.triangle[t + 2]});
+    std::vector<double> omega, decay(kModes, 1.0), form;
+    for (std::size_t k = 0; k < kModes; ++k) {
+        omega.push_back(kTau * (500.0 + 200.0 * static_cast<double>(k)));
+        for (const Vec3& x : shape.node)
+            for (int axis = 0; axis < 3; ++axis)
+                form.push_back(std::cos(30.0 * x.x() + static_cast<double>(k) * x.y() + axis));
+    }
+    Settings settings;
+    const std::shared_ptr<const ModalVoiceModel> model =
+        make_voice_model(omega, decay, mesh, form, settings);
+    Scene scene;
+    scene.set(settings);
+    scene.add_listener(0.0).pose.centre = {0.0, 0.0, static_cast<double>(state.range(0))};
+    std::vector<double> amplitude(kModes, 0.0), rate(kModes, kRate);
+    double t = 0.0;
+    for (auto _ : state) {
+        t += kStep;
+        for (std::size_t k = 0; k < kModes; ++k) {
+            amplitude[k] = kRate / omega[k] * std::sin(omega[k] * t);
+            rate[k] = kRate * std::cos(omega[k] * t);
+        }
+        scene.push(&shape, shape.triangle,
+                   ModalView{t, kStep, amplitude, rate, Vec3::Zero(), Eigen::Matrix3d::Identity()},
+                   [&] { return model; });
+        scene.end_step(t);
+    }
+    const Scene::Count count = scene.count();
+    const double left_out = static_cast<double>(count.inaudible_samples) /
+                            static_cast<double>(count.inaudible_samples + count.mode_samples);
+    state.counters["left_out"] = left_out;
+    state.counters["error_Pa"] = left_out * kModes * kInaudible; // at most
+}
+BENCHMARK(BM_Modes)->Arg(1)->Arg(100)->Arg(10000)->Arg(1000000)->ArgName("metres");
 
 /// Level [dB] of a point source of `frequency`, and of what else is heard, in counters.
 void BM_Response(benchmark::State& state) {

@@ -12,6 +12,9 @@ namespace ode::sound::test {
 namespace {
 
 constexpr double kRadius = 0.05, kFrequency = 1000.0, kAmplitude = 1e-6, kDistance = 1.0;
+/// Pressure at 1 m per acceleration where a sphere pulsates (Pierce, Acoustics, 4-1).
+const double kLevel =
+    Air{}.density * kRadius * kRadius / std::hypot(1.0, kTau* kFrequency / Air{}.speed * kRadius);
 
 /// A sphere whose one mode is to pulsate, or to shake along z, 1 m for unit amplitude.
 std::shared_ptr<const ModalVoiceModel> sphere(double decay, bool shakes) {
@@ -30,12 +33,15 @@ std::shared_ptr<const ModalVoiceModel> sphere(double decay, bool shakes) {
     model.omega = {kTau * kFrequency};
     model.decay = {decay};
     model.table = make_transfer_table(surface);
+    model.level = {kLevel};
     return std::make_shared<const ModalVoiceModel>(std::move(model));
 }
 
 /// What is heard at kDistance of views `step` [s] apart. @param until  views end there [s].
 /// @param spin  about y [rad/s]; a sphere that spins shakes, one that doesn't pulsates.
-std::vector<double> listen(double step, double until, double time, double spin = 0.0) {
+/// @param count  out, or null.
+std::vector<double> listen(double step, double until, double time, double spin = 0.0,
+                           double distance = kDistance, Scene::Count* count = nullptr) {
     Settings settings = Rig::unit_settings();
     settings.radiation = Radiation::kTransfer;
     const auto model = sphere(0.0, spin != 0.0);
@@ -43,7 +49,7 @@ std::vector<double> listen(double step, double until, double time, double spin =
     Scene scene;
     scene.set(settings);
     Listener& listener = scene.add_listener(0.0);
-    listener.pose.centre = Vec3(kDistance, 0.0, 0.0);
+    listener.pose.centre = Vec3(distance, 0.0, 0.0);
     listener.pose.ear_distance = 0.0;
     listener.add_sink(recorder);
     const int triangle[3] = {0, 0, 0};
@@ -62,6 +68,8 @@ std::vector<double> listen(double step, double until, double time, double spin =
                        [&] { return model; });
         scene.end_step(t);
     }
+    if (count)
+        *count = scene.count();
     return recorder->ear[0];
 }
 
@@ -119,6 +127,20 @@ TEST(ModalVoice, DoesNotHearATurnByItsViews) {
     }
     ASSERT_GT(all, 0.0);
     EXPECT_LT(10.0 * std::log10(off / all), -80.0);
+}
+
+// A mode is left out where its pressure is less than that of no sound, and nowhere else.
+TEST(ModalVoice, LeavesOutWhatNoEarHears) {
+    const double acceleration = kTau * kFrequency * kTau * kFrequency * kAmplitude;
+    const double just = kLevel * acceleration / kInaudible; // [m]
+    Scene::Count near{}, far{};
+    const std::vector<double> heard = listen(1e-3, 0.1, 0.1, 0.0, 0.9 * just, &near);
+    EXPECT_GT(near.mode_samples, 9000U);
+    EXPECT_EQ(near.inaudible_samples, 0U);
+    const std::vector<double> silent = listen(1e-3, 0.1, 0.1, 0.0, 1.2 * just, &far);
+    EXPECT_EQ(far.mode_samples, 0U);
+    EXPECT_EQ(far.inaudible_samples, near.mode_samples);
+    EXPECT_TRUE(std::all_of(silent.begin(), silent.end(), [](double p) { return p == 0.0; }));
 }
 
 // Where views break off the mode is faded, not cut.
