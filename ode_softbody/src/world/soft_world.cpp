@@ -1,22 +1,17 @@
 #include "world/soft_world.h"
 
 #include "base/error.h"
+#include "base/stopwatch.h"
 #include "world/rigid_sweep.h"
 
 #include <ode/objects.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <optional>
 
 namespace ode::soft {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) noexcept {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Substeps between looks at the bodies' energy, each of which costs about a tenth of a force. A
 // body whose elastic energy alone exceeds what is due is looked at at once: see
@@ -101,15 +96,16 @@ bool SoftWorld::begin_step(double h) noexcept {
         return true;
     }
     // Where nothing moves and nobody watches the clock would be most of the cost.
-    const bool timed = !none_moves(body_) || !observer_.empty();
-    const auto start = timed ? Clock::now() : Clock::time_point();
+    std::optional<Stopwatch> watch;
+    if (!none_moves(body_) || !observer_.empty())
+        watch.emplace();
     meet(h);
     for (bool again = false; !advance(h, again);)
         again = true;
     time_ += h;
     ++stats_.steps;
-    if (timed)
-        stats_.seconds += seconds_since(start);
+    if (watch)
+        stats_.seconds += watch->seconds();
     if (!observer_.empty())
         watch_step();
     // Else there are no shadows of this step, or those of an attempt that failed.
@@ -132,13 +128,6 @@ void SoftWorld::end_step() noexcept {
         watch_move();
     stepping_ = false;
     drop_past_observers();
-}
-
-void SoftWorld::drop_past_observers() noexcept {
-    if (busy() || past_observer_.empty())
-        return;
-    std::erase(observer_, nullptr);
-    past_observer_.clear();
 }
 
 void SoftWorld::meet(double h) noexcept {
@@ -353,50 +342,6 @@ bool SoftWorld::all_sound() noexcept {
             body->stop();
     not_shown_until_ = std::max(not_shown_until_, shown_);
     return false;
-}
-
-void SoftWorld::show_substep(double time, double dt) noexcept {
-    // A step that is redone shows what has not been shown yet: observers can't take back.
-    if (not_shown_until_ > time_) {
-        if (time <= not_shown_until_ + dt / 2)
-            return;
-        dt = time - not_shown_until_;
-        not_shown_until_ = 0;
-    }
-    shown_ = time;
-    const auto start = Clock::now();
-    if (!exchange_.pushes().empty())
-        each_observer([&](Observer& observer) {
-            if (observer.wants_pushes())
-                observer.on_pushes(time, dt, exchange_.pushes());
-        });
-    for (const auto& body : body_) {
-        if (!body->moves())
-            continue;
-        each_observer([&](Observer& observer) {
-            if (!observer.wants_substeps())
-                return;
-            observer.on_substep({*body, time, dt});
-            ++stats_.observer_calls;
-        });
-    }
-    stats_.observer_seconds += seconds_since(start);
-}
-
-void SoftWorld::watch_move() noexcept {
-    const auto start = Clock::now();
-    each_observer([&](Observer& observer) { observer.on_moved(*this, time_); });
-    const double spent = seconds_since(start);
-    stats_.observer_seconds += spent;
-    stats_.seconds += spent;
-}
-
-void SoftWorld::watch_step() noexcept {
-    const auto start = Clock::now();
-    each_observer([&](Observer& observer) { observer.on_step(*this, time_); });
-    const double spent = seconds_since(start);
-    stats_.observer_seconds += spent;
-    stats_.seconds += spent;
 }
 
 } // namespace ode::soft

@@ -9,26 +9,6 @@
 namespace ode::sound {
 namespace {
 
-void find_levels(StruckVoiceModel& model) {
-    const std::size_t n = model.omega.size();
-    model.level.assign(n, 0.0);
-    std::vector<ModeGain> gain(n);
-    std::vector<double> scratch(model.table.scratch_size());
-    const double distance = 1.0 + model.table.near_limit(); // [m]
-    for (int side = 0; side < 6; ++side) {
-        Vec3 way = Vec3::Zero();
-        way[side / 2] = side % 2 == 0 ? distance : -distance;
-        model.table.gains(model.table.centre + way, gain, scratch);
-        for (std::size_t k = 0; k < n; ++k)
-            model.level[k] +=
-                (std::pow(static_cast<double>(gain[k].acceleration), 2) +
-                 std::pow(static_cast<double>(gain[k].velocity) / model.omega[k], 2)) *
-                distance * distance / 6.0;
-    }
-    for (double& level : model.level)
-        level = std::sqrt(level);
-}
-
 bool solves(const Settings& settings) { return settings.radiation == Radiation::kTransfer; }
 
 Leaning leaning_of(const Settings& settings) {
@@ -60,6 +40,25 @@ std::string rule_of(const Settings& settings) {
 
 } // namespace
 
+std::vector<double> mode_levels(const TransferTable& table, std::span<const double> omega) {
+    std::vector<double> level(omega.size(), 0.0);
+    std::vector<ModeGain> gain(omega.size());
+    std::vector<double> scratch(table.scratch_size());
+    const double distance = 1.0 + table.near_limit(); // [m]
+    for (int side = 0; side < 6; ++side) {
+        Vec3 way = Vec3::Zero();
+        way[side / 2] = side % 2 == 0 ? distance : -distance;
+        table.gains(table.centre + way, gain, scratch);
+        for (std::size_t k = 0; k < level.size(); ++k)
+            level[k] += (std::pow(static_cast<double>(gain[k].acceleration), 2) +
+                         std::pow(static_cast<double>(gain[k].velocity) / omega[k], 2)) *
+                        distance * distance / 6.0;
+    }
+    for (double& own : level)
+        own = std::sqrt(own);
+    return level;
+}
+
 bool hears_modes(const Settings& settings) noexcept {
     return settings.sampling == Sampling::kSinc && (settings.radiation == Radiation::kMonopole ||
                                                     settings.radiation == Radiation::kKirchhoff ||
@@ -88,7 +87,7 @@ make_voice_model(std::span<const double> omega, std::span<const double> decay,
         model->table.speed = air.speed;
     }
     model->rigid = rigid_sound(mesh, Vec3::Zero(), air);
-    find_levels(*model);
+    model->level = mode_levels(model->table, model->omega);
     find_steps(*model, settings.rate);
     return model;
 }

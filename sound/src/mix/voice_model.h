@@ -22,6 +22,9 @@ make_voice_model(std::span<const double> omega, std::span<const double> decay,
                  const BoundaryMesh& mesh, std::span<const double> shape, const Settings& settings,
                  const TableCache& cache = {});
 
+/// ModalVoiceModel::level by a table.
+std::vector<double> mode_levels(const TransferTable& table, std::span<const double> omega);
+
 /// A body's surface in numbers of its own.
 struct SurfaceNumbers {
     std::vector<int> node; ///< of the body

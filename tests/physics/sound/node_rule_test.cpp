@@ -10,6 +10,8 @@
 namespace ode::sound::test {
 namespace {
 
+constexpr double kAlwaysHeard = 1e30; ///< level of a mode
+
 constexpr double kStroke = 1e-6; // [m]
 const Vec3 kEar(0.7, 0.5, 0.9);
 
@@ -98,7 +100,8 @@ std::complex<double> by_voice(const BoundaryMesh& mesh, Radiation radiation, con
         ModalVoiceModel{{kTau * frequency},
                         {0.0},
                         node_table(surface, leaning, settings.air, settings.send_rate()),
-                        rigid_sound(surface.mesh, Vec3::Zero(), settings.air)});
+                        rigid_sound(surface.mesh, Vec3::Zero(), settings.air),
+                        {kAlwaysHeard}});
     const int triangle[3] = {0, 0, 0};
     const double step = whole ? 2.5e-6 : 1e-3;
     const double w = kTau * frequency;

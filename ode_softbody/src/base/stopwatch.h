@@ -1,0 +1,19 @@
+#pragma once
+
+#include <chrono>
+
+namespace ode::soft {
+
+/// Wall time since it was made.
+class Stopwatch {
+public:
+    double seconds() const noexcept {
+        return std::chrono::duration<double>(Clock::now() - start_).count();
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point start_ = Clock::now();
+};
+
+} // namespace ode::soft
