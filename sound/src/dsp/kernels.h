@@ -41,6 +41,7 @@ struct SplatSurface {
     const double* lean_flow;  ///< of each node [m^3/s], the same
     double samples_per_metre; ///< ring rate / speed of sound
     const double* table;      ///< SplatTable::rows()
+    const double* moment;     ///< SplatTable::moments()
 };
 
 /// One point at successive samples, on its way to one ear.

@@ -101,11 +101,11 @@ void Listener::splat(const FlowBlock& block, bool ghost, int only) noexcept {
     }
     if (count == 0)
         return;
-    SplatSurface surface{block.nodes,         block.position,
-                         block.area,          block.softening,
-                         block.flow,          block.lean,
-                         block.lean_flow,     settings_->send_rate() / settings_->air.speed,
-                         splat_table().rows()};
+    SplatSurface surface{block.nodes,          block.position,
+                         block.area,           block.softening,
+                         block.flow,           block.lean,
+                         block.lean_flow,      settings_->send_rate() / settings_->air.speed,
+                         splat_table().rows(), splat_table().moments()};
     const auto facing = static_cast<std::size_t>(
         block.lean ? Facing::kLeaning : radiation_facing(settings_->radiation));
     Shade* const shade = find_shade(block.source);

@@ -109,8 +109,16 @@ struct Point {
                500.0};
     }
     SplatSurface surface() const {
-        return {4,           position.data(),  area.data(), softening.data(),    flow.data(),
-                lean.data(), lean_flow.data(), 280.0,       splat_table().rows()};
+        return {4,
+                position.data(),
+                area.data(),
+                softening.data(),
+                flow.data(),
+                lean.data(),
+                lean_flow.data(),
+                280.0,
+                splat_table().rows(),
+                splat_table().moments()};
     }
     double sum() const {
         double s = 0.0;
@@ -160,6 +168,94 @@ TEST_P(EveryKernel, SplatDropsWhatCannotBeKept) {
     Point far(100.0);
     EXPECT_EQ(kernel.splat[0](far.surface(), &far.ear, 1), 0.0);
     EXPECT_EQ(far.sum(), 0.0);
+}
+
+/// Nodes about a place `away` from an ear, within `size` [m].
+struct Cloud {
+    static constexpr int kMany = 1300; ///< not a whole number of chunks
+    AlignedVector position = AlignedVector(4 * kMany, 0.0), area = position, lean = position;
+    AlignedVector softening = AlignedVector(kMany, 1e-12), flow = AlignedVector(kMany);
+    AlignedVector lean_flow = AlignedVector(kMany, 0.0);
+    std::vector<double> ring[2][2];
+    SplatEar ear[2];
+
+    Cloud(double size, double away) {
+        for (int i = 0; i < kMany; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            flow[at] = noise(i);
+            for (int k = 0; k < 3; ++k)
+                position[4 * at + static_cast<std::size_t>(k)] =
+                    0.5 * size * noise(9000 + 3 * i + k);
+        }
+        for (int e = 0; e < 2; ++e) {
+            for (auto& r : ring[e])
+                r.assign(1024 + 16, 0.0);
+            ear[e] = {{away, 0.1 * e, 0.0, 0.0},
+                      {0.01, 0.0, 0.0, 0.0},
+                      {ring[e][0].data(), ring[e][1].data()},
+                      1023,
+                      900, // over the ring's end
+                      1.0,
+                      0.0,
+                      500.0};
+        }
+    }
+    SplatSurface nodes(int first, int count) const {
+        return {count,
+                position.data() + 4 * first,
+                area.data() + 4 * first,
+                softening.data() + first,
+                flow.data() + first,
+                lean.data() + 4 * first,
+                lean_flow.data() + first,
+                280.0,
+                splat_table().rows(),
+                splat_table().moments()};
+    }
+    /// What the ear's line will read.
+    std::vector<double> heard(int e) const {
+        std::vector<double> out(1024);
+        for (const auto& r : ring[e])
+            for (std::size_t i = 0; i < r.size(); ++i)
+                out[i % 1024] += r[i];
+        return out;
+    }
+};
+
+// Arrivals of like delay are summed before they are spread; four nodes far apart never are.
+TEST_P(EveryKernel, SumsOfArrivalsAreTheArrivals) {
+    for (const double size : {0.01, 0.2, 0.6, 1.4}) { // 1.4 m are more cells than are summed
+        Cloud all(size, 0.9), alone(size, 0.9);
+        alone.flow[7] = all.flow[7] = std::nan(""); // is left out, wherever it seems to be
+        const double last = kernel.splat[0](all.nodes(0, Cloud::kMany), all.ear, 2);
+        double latest = 0.0;
+        for (int i = 0; i < Cloud::kMany; ++i) {
+            // One node and three silent ones half a metre apart.
+            SplatSurface one = alone.nodes(i, 4);
+            AlignedVector place(16, 0.0), flow(4, 0.0);
+            for (std::size_t k = 0; k < 3; ++k)
+                place[k] = alone.position[4 * static_cast<std::size_t>(i) + k];
+            for (std::size_t n = 1; n < 4; ++n)
+                place[4 * n] = 0.4 * (static_cast<double>(n) - 2.5);
+            flow[0] = alone.flow[static_cast<std::size_t>(i)];
+            one.position = place.data();
+            one.flow = flow.data();
+            one.softening = alone.softening.data();
+            latest = std::max(latest, kernel.splat[0](one, alone.ear, 2));
+        }
+        EXPECT_GT(latest, last - 1e-9);
+        for (int e = 0; e < 2; ++e) {
+            const std::vector<double> a = all.heard(e), b = alone.heard(e);
+            double energy = 0.0, error = 0.0;
+            for (std::size_t i = 0; i < a.size(); ++i) {
+                energy += b[i] * b[i];
+                error += (a[i] - b[i]) * (a[i] - b[i]);
+            }
+            EXPECT_GT(energy, 0.0);
+            EXPECT_LT(std::sqrt(error / energy), 3e-5)
+                << size << " m"; // noise up to half the grid's rate
+        }
+    }
 }
 
 TEST_P(EveryKernel, FacingWeighsByTheNormal) {

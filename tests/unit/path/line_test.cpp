@@ -22,8 +22,16 @@ bool send(EarLine& line, std::int64_t sample, double distance) {
     SplatEar ear = line.target(sample);
     ear.gain = 1.0;
     ear.position[0] = distance;
-    const SplatSurface surface{4,       position, nullptr, softening,           flow,
-                               nullptr, nullptr,  1.0,     splat_table().rows()};
+    const SplatSurface surface{4,
+                               position,
+                               nullptr,
+                               softening,
+                               flow,
+                               nullptr,
+                               nullptr,
+                               1.0,
+                               splat_table().rows(),
+                               splat_table().moments()};
     const double last = kernels().splat[0](surface, &ear, 1);
     line.note_arrival(static_cast<double>(sample) + last);
     return last > 0.0;
