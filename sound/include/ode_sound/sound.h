@@ -71,6 +71,7 @@ DSOUND_API int dSoundSetSampling(dSoundWorldID world, const char* name);
  * hidden triangles; rules that count all faces get quieter by the part that is hidden, since front
  * and back must go on to cancel. Soft bodies hide others, too, but no body itself; what goes round
  * an edge is not heard.
+ * Rigid bodies that sound are hidden likewise while they ring, looked for within their mesh's box.
  * @param space          searched with those inside it; NULL: nothing hides (default). Must not end
  *                       before the sound world's listeners unless NULL is set first.
  * @param category_bits  a geom hides when it has one of these. */

@@ -77,6 +77,11 @@ public:
     void remove(RigidBody& body, Scene& scene) noexcept;
     bool has(dBodyID body) const noexcept { return find(body) != nullptr; }
     bool empty() const noexcept { return body_.empty(); }
+    template <class Use>
+    void for_each(Use&& use) const {
+        for (const auto& own : body_)
+            use(*own);
+    }
 
     Geoms& geoms() noexcept { return geoms_; }
 

@@ -216,7 +216,7 @@ void SoundWorld::strike(RigidBody& body, const Vec3& point, const Vec3& impulse,
 
 void SoundWorld::end_step(double time, double settled) {
     scene_.end_step(time, settled);
-    occlusion_.update(scene_, time - stepped_);
+    occlusion_.update(scene_, rigid_, time - stepped_);
     alarm_.update(
         scene_, time, &fare_of,
         [this](const void* body, double when, Alarm::Cause cause) { raise(body, when, cause); });

@@ -154,6 +154,7 @@ Listener::Voice& Listener::find_voice(const void* voice, const TransferTable& ta
 
 void Listener::forget_voice(const void* voice) noexcept {
     std::erase_if(voice_, [&](const Voice& own) { return own.key == voice; });
+    std::erase_if(shade_, [&](const Shaded& own) { return own.source == voice; });
 }
 
 void Listener::send(const ModalBlock& block) {
@@ -236,10 +237,10 @@ Shade* Listener::find_shade(const void* source) const noexcept {
     return found != shade_.end() ? found->shade.get() : nullptr;
 }
 
-Shade& Listener::shade(const BodySource& source) {
-    if (Shade* found = find_shade(&source))
+Shade& Listener::shade(const void* source) {
+    if (Shade* found = find_shade(source))
         return *found;
-    shade_.push_back({&source, std::make_unique<Shade>()});
+    shade_.push_back({source, std::make_unique<Shade>()});
     return *shade_.back().shade;
 }
 

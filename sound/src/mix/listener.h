@@ -50,10 +50,9 @@ public:
     void forget_voice(const void* voice) noexcept;
 
     /// What this listener sees of a source; made at the first call.
-    Shade& shade(const BodySource& source);
-    bool has_shade(const BodySource& source) const noexcept {
-        return find_shade(&source) != nullptr;
-    }
+    /// @param source  a BodySource, or the StruckVoice of a rigid body.
+    Shade& shade(const void* source);
+    bool has_shade(const void* source) const noexcept { return find_shade(source) != nullptr; }
     /// The source ends.
     void forget(const BodySource& source) noexcept;
 

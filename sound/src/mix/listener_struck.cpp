@@ -41,7 +41,18 @@ void Listener::send(const ModalRun& run) {
                               out);
     // Of the cells of the grid only one in `every` is told: the others' share comes with it.
     const double scale = run.every / radiation_gain(settings_->radiation, settings_->air);
+    Shade* const shade = find_shade(run.voice);
+    const bool hides = shade && !shade->is_clear();
+    double seen[kEars] = {1.0, 1.0}, seen_step[kEars] = {};
+    for (std::size_t e = 0; hides && e < ears; ++e)
+        seen[e] = shade->share(static_cast<int>(e));
+    if (hides)
+        shade->advance(run.sample, settings_->send_rate(), run.samples * run.every);
+    for (std::size_t e = 0; hides && e < ears; ++e)
+        seen_step[e] = (shade->share(static_cast<int>(e)) - seen[e]) / run.samples;
     for (std::size_t e = 0; e < ears; ++e) {
+        for (int i = 0; hides && i < run.samples; ++i)
+            heard[e][i] *= static_cast<float>(seen[e] + (i + 1) * seen_step[e]);
         for (int i = 0; i < run.samples; ++i)
             heard[e][i] *= static_cast<float>(scale * (run.gain + i * run.gain_step));
         if (state[e].ghost_share < 1.0) {

@@ -4,11 +4,12 @@
 
 namespace ode::sound {
 
-void Shade::advance(std::int64_t sample, double rate) noexcept {
+void Shade::advance(std::int64_t sample, double rate, int samples) noexcept {
     if (clear_ || sample == sample_)
         return;
     sample_ = sample;
-    const double step = 1.0 / (kFade * rate); // a body that slept meanwhile goes on where it was
+    const double step =
+        samples / (kFade * rate); // a body that slept meanwhile goes on where it was
     bool clear = true;
     for (auto& ear : patch_)
         for (Patch& p : ear) {

@@ -25,7 +25,8 @@ public:
     }
 
     /// Goes to a sample; asking for one twice is harmless. @param rate  of samples [Hz].
-    void advance(std::int64_t sample, double rate) noexcept;
+    /// @param samples  since the last.
+    void advance(std::int64_t sample, double rate, int samples = 1) noexcept;
 
     /// Whether everything is seen.
     bool is_clear() const noexcept { return clear_; }
