@@ -14,6 +14,7 @@
 
 #include "plots/sound_picture.h"
 #include "scenes/chimes.h"
+#include "scenes/measured_chimes.h"
 #include "softsound/demo.h"
 #include "softsound/performance.h"
 #include "softsound/progress.h"
@@ -93,12 +94,34 @@ nlohmann::ordered_json tube_json(const scenes::ChimeBodies::Tube& tube, dSoundMo
     return out;
 }
 
+/// Real chimes against the same theory that tunes these.
+nlohmann::ordered_json measured_json() {
+    const ode::soft::MeasuredChimes set;
+    nlohmann::ordered_json out = nlohmann::ordered_json::array();
+    for (const auto& chime : ode::soft::kMeasuredChimes) {
+        const std::vector<double> theory = set.partials(chime[0]);
+        nlohmann::ordered_json& tube = out.emplace_back();
+        tube["partials"] = chime;
+        tube["theory"] = theory;
+        for (std::size_t k = 0; k < chime.size(); ++k)
+            tube["cents"].push_back(ode::soft::cents(theory[k], chime[k]));
+    }
+    return out;
+}
+
 void summarise(const nlohmann::ordered_json& r, const Performance& p, const Options& o) {
     for (const auto& tube : r["tubes"]) {
         std::printf("tube of %.3f m, %d blows:", tube["length"].get<double>(),
                     tube["blows"].get<int>());
         for (std::size_t k = 0; k < tube["partials"].size(); ++k)
             std::printf(" %.1f Hz (%+.2f cents)", tube["partials"][k].get<double>(),
+                        tube["cents"][k].get<double>());
+        std::printf("\n");
+    }
+    for (const auto& tube : r["measured"]) {
+        std::printf("measured (NORSIG 2004):");
+        for (std::size_t k = 0; k < kPartials; ++k)
+            std::printf(" %.0f Hz (theory %+.1f cents)", tube["partials"][k].get<double>(),
                         tube["cents"][k].get<double>());
         std::printf("\n");
     }
@@ -145,8 +168,11 @@ int run(Options o, const Common& common) {
     };
     const Performance p = perform(world, o.stage, common.quiet, act);
 
-    nlohmann::ordered_json results = {
-        {"demo", o.stage.name}, {"gust", o.chimes.gust}, {"step", o.stage.step}, {"tubes", tubes}};
+    nlohmann::ordered_json results = {{"demo", o.stage.name},
+                                      {"gust", o.chimes.gust},
+                                      {"step", o.stage.step},
+                                      {"tubes", tubes},
+                                      {"measured", measured_json()}};
     results.update(as_json(p));
     results["out"] = o.stage.out;
     if (!o.stage.plot.empty()) {

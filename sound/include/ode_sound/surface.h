@@ -26,8 +26,9 @@ extern "C" {
 /** A geom's surface. Start from dSoundSurfaceDefault(). */
 typedef struct dSoundSurface {
     unsigned struct_size;
-    dReal roughness;      /**< root mean square of its heights [m], >= 0; default 0.5e-6 (ground
-                               metal, polished wood; planed wood 5e-6, stone 2e-5) */
+    dReal roughness;      /**< root mean square of its heights [m], >= 0; default 5e-8 (polished:
+                               N1 of ISO 1302; ground metal, polished wood 0.5e-6, planed wood
+                               5e-6, stone 2e-5) */
     dReal longest;        /**< wavelength [m]; longer ones are no higher; default 5e-3 */
     dReal shortest;       /**< wavelength [m], > 0 and < longest; default 5e-5. In between power
                                falls with the square of the wave number */

@@ -116,6 +116,16 @@ bool holds(const RigidTouch& touch, double load) noexcept {
 
 } // namespace
 
+Vec3 force_per_load(const RigidTouch& touch) noexcept {
+    constexpr double kSteepest = 1.0;
+    const double normal = touch.impulse.dot(touch.normal);
+    const Vec3 across = touch.impulse - normal * touch.normal;
+    const double size = across.norm();
+    if (!(size > 0.0))
+        return touch.normal;
+    return touch.normal + across * (std::min(kSteepest, size / std::max(normal, 0.0)) / size);
+}
+
 Travel travel_of(const RigidTouch& touch, double load) noexcept {
     const RigidMotion &a = touch.motion[0], &b = touch.motion[1];
     const Vec3& n = touch.normal;

@@ -54,6 +54,10 @@ struct ContactPatch {
 /// @param side  those with a voice; null: none.
 ContactPatch patch_of(const RigidTouch& touch, RigidBody* const side[2], const Geoms& geoms);
 
+/// Force on the first body per load along the normal: friction goes with the load. Where that is
+/// next to nothing the joint's own ratio may be anything; no more than 1 is believed.
+Vec3 force_per_load(const RigidTouch& touch) noexcept;
+
 /// How fast a contact goes along both surfaces, tangential and world [m/s]: what rolls takes it
 /// along on both, what slides on one (the kinematics of rolling; D. J. Montana, Int. J. Robotics
 /// Research 7, 1988). @param load  along the normal [N].

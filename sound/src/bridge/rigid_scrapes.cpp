@@ -57,12 +57,7 @@ void RigidScrapes::aim(Contact& contact, const Bearing& bearing, const Travel& t
                       touch.motion[1].yielding(touch.position, touch.normal));
     aim.damping = 0.5 * patch.loss;
     contact.scrape.aim(aim);
-    // Friction goes with the load; where that is next to nothing the joint's own may be anything.
-    constexpr double kSteepest = 1.0;
-    const double normal = touch.impulse.dot(touch.normal);
-    Vec3 sideways = touch.impulse / normal - touch.normal;
-    sideways *= std::min(1.0, kSteepest / std::max(sideways.norm(), 1e-12));
-    const Vec3 along = touch.normal + sideways;
+    const Vec3 along = force_per_load(touch);
     for (std::size_t s = 0; s < 2; ++s) {
         RigidBody* const side = bearing.side[s];
         if (!side)

@@ -1,7 +1,7 @@
 // Bars and tubes that were measured (cases A5, A6).
 #include "mesh/generate.h"
 #include "modal/solve_modes.h"
-#include "scenes/timoshenko.h"
+#include "scenes/measured_chimes.h"
 
 #include <gtest/gtest.h>
 
@@ -30,36 +30,14 @@ TEST(Instruments, TubesOfTwoLengthsKeepTheirMeasuredRatio) {
     EXPECT_LE(std::abs(apart), 15);
 }
 
-// A5. Wind chimes (NORSIG 2004), four tubes of one set. Partial 1 gives each its length, up to a
-// scale, because f1 goes as 1 / L^2; the one parameter left, the tube's radius of gyration over the
-// first one's length, is fitted on a single number, that chime's second partial.
-struct Chime {
-    double partial[4];
-};
-constexpr Chime kChimes[] = {{{244, 663, 1272, 2050}},
-                             {{278, 753, 1441, 2314}},
-                             {{312, 850, 1625, 2600}},
-                             {{330, 890, 1700, 2712}}};
-
-/// Radius of gyration over length of the first chime.
-double fitted_slenderness() {
-    // Thin tube: Cowper's k = 2 (1 + nu) / (4 + 3 nu), so E / (k G) = 4 + 3 nu.
-    return roots(
-        [](double r) {
-            const auto b = timoshenko_roots(BeamEnds::kFree, r * r, r * r * (4 + 3 * 0.33), 2);
-            return b[1] / b[0] - kChimes[0].partial[1] / kChimes[0].partial[0];
-        },
-        0.002, 0.002, 1)[0];
-}
-
+// A5. Wind chimes: one parameter, fitted on one number, for a set of four tubes.
 TEST(Instruments, OneTimoshenkoParameterPredictsASetOfChimes) {
-    const double first = fitted_slenderness();
-    for (const Chime& chime : kChimes) {
-        const double r2 = first * first * chime.partial[0] / kChimes[0].partial[0];
-        const auto b = timoshenko_roots(BeamEnds::kFree, r2, r2 * (4 + 3 * 0.33), 4);
+    const MeasuredChimes set;
+    for (const auto& chime : kMeasuredChimes) {
+        const std::vector<double> theory = set.partials(chime[0]);
         for (std::size_t k = 1; k < 4; ++k)
-            EXPECT_LE(std::abs(cents(b[k] / b[0], chime.partial[k] / chime.partial[0])), 35)
-                << chime.partial[0] << " Hz, partial " << k + 1;
+            EXPECT_LE(std::abs(cents(theory[k], chime[k])), 35)
+                << chime[0] << " Hz, partial " << k + 1;
     }
     // Euler-Bernoulli is far outside on the fourth.
     EXPECT_GT(cents(14.13717 * 14.13717 / (4.73004 * 4.73004), 2050.0 / 244), 100);
@@ -72,7 +50,7 @@ TEST(Instruments, ASolidChimeHasTheMeasuredPartials) {
     // A polygon's radius of gyration squared is (2 + cos(2 pi / n)) / 3 of its circumcircle's.
     const double facets = std::sqrt((2 + std::cos(2 * std::numbers::pi / kFacets)) / 3);
     const double outer =
-        2 * fitted_slenderness() * kLength / std::sqrt(1 + kRatio * kRatio) / facets;
+        2 * MeasuredChimes().slenderness() * kLength / std::sqrt(1 + kRatio * kRatio) / facets;
     const ModalModel model = cubic(make_tube(kLength, outer, kRatio * outer, 16, kFacets, 1), 12);
     std::vector<double> bending; // comes in pairs; torsion and stretching don't
     for (std::size_t k = 0; k + 1 < model.mode_count(); ++k)
@@ -81,7 +59,7 @@ TEST(Instruments, ASolidChimeHasTheMeasuredPartials) {
     ASSERT_GE(bending.size(), 4u);
     for (std::size_t k = 1; k < 4; ++k) {
         const double apart =
-            cents(bending[k] / bending[0], kChimes[0].partial[k] / kChimes[0].partial[0]);
+            cents(bending[k] / bending[0], kMeasuredChimes[0][k] / kMeasuredChimes[0][0]);
         std::printf("chime, partial %zu: %+.1f cents\n", k + 1, apart);
         EXPECT_LE(std::abs(apart), 35);
     }
