@@ -241,4 +241,18 @@ ModalModel ModalProblem::model(const EigenPairs& pairs) const {
     return out;
 }
 
+std::vector<Eigen::Index> ModalProblem::mesh_rows() const {
+    std::vector<Eigen::Index> row(map_.node_count(), -1);
+    Eigen::Index next = 0;
+    for (std::size_t i = 0; i < row.size(); ++i)
+        if (held_[i] != 7)
+            row[i] = 3 * next++;
+    std::vector<Eigen::Index> out(mesh_.node.size(), -1);
+    for (std::size_t i = 0; i < out.size(); ++i)
+        if (map_.mesh_start[i + 1] - map_.mesh_start[i] == 1)
+            out[i] = row[static_cast<std::size_t>(
+                map_.mesh_term[static_cast<std::size_t>(map_.mesh_start[i])].node)];
+    return out;
+}
+
 } // namespace ode::soft

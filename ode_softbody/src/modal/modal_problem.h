@@ -34,6 +34,8 @@ public:
     const BlockSystem& system() const noexcept { return system_; }   ///< of free nodes
     const std::vector<char>& held() const noexcept { return held_; } ///< see free_rigid_motions
     const RowMatrix& rigid_motions() const noexcept { return rigid_; }
+    /// Row of each mesh node's x in the system; -1: held, in no element, or no node of the map.
+    std::vector<Eigen::Index> mesh_rows() const;
     const BlockFactor& factor() const noexcept { return *factor_; } ///< after solve()
     const TetMesh& mesh() const noexcept { return mesh_; }
     std::span<const Solid> solids() const noexcept { return solids_; }

@@ -4,26 +4,6 @@
 #include <cmath>
 
 namespace ode::soft {
-namespace {
-
-/// Row of each mesh node's x in the system; -1: held, or in no element.
-std::vector<Eigen::Index> rows_of(const ModalProblem& problem) {
-    const DofMap& map = problem.map();
-    std::vector<Eigen::Index> row(map.node_count(), -1);
-    Eigen::Index next = 0;
-    for (std::size_t i = 0; i < row.size(); ++i)
-        if (problem.held()[i] != 7)
-            row[i] = 3 * next++;
-    std::vector<Eigen::Index> out(problem.mesh().node.size(), -1);
-    for (std::size_t i = 0; i < out.size(); ++i)
-        if (map.mesh_start[i + 1] - map.mesh_start[i] == 1)
-            out[i] = row[static_cast<std::size_t>(
-                map.mesh_term[static_cast<std::size_t>(map.mesh_start[i])].node)];
-    return out;
-}
-
-} // namespace
-
 std::vector<ResidualFlexibility>
 residual_flexibility(const TetMesh& mesh, std::span<const Solid> solids,
                      const ModalOptions& options, const ModalModel& modes,
@@ -33,7 +13,7 @@ residual_flexibility(const TetMesh& mesh, std::span<const Solid> solids,
     if (modes.mode_count() == 0)
         return out;
     ModalProblem problem(mesh, solids, options);
-    const std::vector<Eigen::Index> row = rows_of(problem);
+    const std::vector<Eigen::Index> row = problem.mesh_rows();
     // Large against what rounding leaves of free motions, small against what is left out.
     const double shift = eigenvalue_of(modes.frequency.front());
     BlockFactor factor(problem.system());
