@@ -51,6 +51,21 @@ TEST_F(Tier, TellsWhatItCosts) {
     EXPECT_EQ(asleep.cost, 0);
 }
 
+TEST_F(Tier, MayBeCubic) {
+    EXPECT_TRUE(dSoftBodySetTier(body, "cubic"));
+    EXPECT_STREQ(dSoftBodyGetTier(body), "cubic");
+    EXPECT_EQ(tier_after(2), "cubic");
+    dSoftModalBasis basis = {};
+    basis.struct_size = sizeof basis;
+    ASSERT_TRUE(dSoftBodyGetModalBasis(body, &basis));
+    for (int k = 1; k < basis.mode_count; ++k)
+        EXPECT_LE(basis.omega[k - 1], basis.omega[k]);
+    dSoftTierStatus status = {};
+    status.struct_size = sizeof status;
+    ASSERT_TRUE(dSoftBodyGetTierStatus(body, &status));
+    EXPECT_GT(status.kept, 0);
+}
+
 TEST_F(Tier, RefusesAToleranceThatIsNone) {
     Messages messages;
     for (const dReal bad : {0.0, -0.1, 1.5, std::nan("")})

@@ -22,8 +22,12 @@ extern "C" {
  * "explicit"  every node, substep by substep: any strain (default)
  * "modal"     modes wherever they can be had: a body of one piece, free or held fast by pins, with
  *             at most 500 modes up to 22 kHz, and nailed to no rigid body; else explicit
- * "auto"      modes while the waveform is expected within dSoftBodySetWaveformTolerance() of the
- *             explicit one's, else explicit; the body changes when it isn't in contact
+ * "cubic"     modes, of which the lowest 36 act on one another as the solid's energy up to the
+ *             fourth power of their amplitudes has it, for "stvk" materials; what else moves along
+ *             is heard too. A few seconds to find, some microseconds a substep
+ * "auto"      the first of modal, cubic and explicit whose waveform is expected within
+ *             dSoftBodySetWaveformTolerance() of the explicit one's; the body changes to and from
+ *             explicit when it isn't in contact
  * Takes effect with the next step. Modes are found once (fractions of a second to seconds), shared
  * by like bodies and kept, see dSoftGetCacheDirectory().
  * @return 0 for an unknown name, after listing the known ones. */
@@ -41,17 +45,21 @@ DSOFT_API dReal dSoftBodyGetWaveformTolerance(dSoftBodyID body);
 /** Start with struct_size = sizeof(dSoftTierStatus). */
 typedef struct dSoftTierStatus {
     unsigned struct_size;
-    const char* tier;     /**< at present: "explicit", "modal", or "asleep" (rest.h); static */
-    int modes;            /**< that it moves in; 0 in the explicit tier */
-    dReal waveform_error; /**< of modes, as last estimated, relative; infinite when never */
+    const char* tier; /**< at present: "explicit", "modal", "cubic", or "asleep" (rest.h); static */
+    int modes;        /**< that it moves in; 0 in the explicit tier */
+    dReal waveform_error; /**< of linear modes, as last estimated, relative; infinite when never */
     int changes;          /**< of tier, since creation */
+    dReal cubic_error;    /**< as waveform_error, of the cubic tier */
+    int kept;             /**< modes that are kept non-linear; 0 but in the cubic tier */
     dReal cost;           /**< CPU seconds a simulated second at present, contacts left out; an
                                estimate of 20 % or so on a current core */
 } dSoftTierStatus;
 DSOFT_API int dSoftBodyGetTierStatus(dSoftBodyID body, dSoftTierStatus* status);
 
-/** The modes that a body moves in. Start with struct_size = sizeof(dSoftModalBasis). All is
- * borrowed while the body moves in them, and the same for all bodies that share them. */
+/** The modes that a body moves in, by rising frequency; in the cubic tier, among them, shapes that
+ * follow products of modes at once and have the frequency of these. Start with struct_size =
+ * sizeof(dSoftModalBasis). All is borrowed while the body moves in them, and the same for all
+ * bodies that share them. */
 typedef struct dSoftModalBasis {
     unsigned struct_size;
     int mode_count;

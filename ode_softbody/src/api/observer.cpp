@@ -87,14 +87,15 @@ private:
     void show_modes(const SubstepView& view) const noexcept {
         const ModalMotion& motion = *view.body.modal_motion();
         const ModalState& now = motion.state();
+        const ModalMotion::Shown shown = motion.shown();
         dSoftModalState state{};
         state.struct_size = sizeof state;
         state.body = to_id(view.body);
         state.time = view.time;
         state.dt = view.dt;
-        state.mode_count = static_cast<int>(motion.basis().audible);
-        state.amplitude = now.amplitude.data();
-        state.rate = now.rate.data();
+        state.mode_count = static_cast<int>(shown.count);
+        state.amplitude = shown.amplitude;
+        state.rate = shown.rate;
         const Vec3 spin = motion.spin();
         const Mat3 turn = now.turn.toRotationMatrix();
         for (int i = 0; i < 3; ++i) {

@@ -20,7 +20,7 @@ int dSoftBodySetTier(dSoftBodyID id, const char* name) {
                                         [&](const TierName& t) { return t.name == name; });
         if (found == std::end(kTierNames))
             throw InputError(
-                format("there is no tier \"%s\"; known are explicit, modal, auto", name));
+                format("there is no tier \"%s\"; known are explicit, modal, cubic, auto", name));
         body->set_tier(found->choice);
         return 1;
     });
@@ -69,6 +69,15 @@ int dSoftBodyGetModalBasis(dSoftBodyID id, dSoftModalBasis* basis) {
     all.rest = own.rest.front().data();
     all.shape = own.shape.data();
     all.stride = static_cast<int>(own.columns);
+    if (body->bends()) {
+        const CubicTerms& terms = body->modal_motion()->cubic()->terms();
+        const CubicTerms::Sounding& sounding = terms.sounding();
+        all.mode_count = all.stride = static_cast<int>(sounding.order.size());
+        all.identity = &terms;
+        all.omega = sounding.omega.data();
+        all.decay = sounding.decay.data();
+        all.shape = sounding.shape.data();
+    }
     return copy_out(__func__, all, basis);
 }
 
@@ -77,10 +86,15 @@ int dSoftBodyGetTierStatus(dSoftBodyID id, dSoftTierStatus* status) {
     if (!body)
         return 0;
     dSoftTierStatus all{};
-    all.tier = !body->moves() ? "asleep" : body->rings() ? "modal" : "explicit";
+    all.tier = !body->moves()  ? "asleep"
+               : body->bends() ? "cubic"
+               : body->rings() ? "modal"
+                               : "explicit";
     all.modes = body->rings() ? static_cast<int>(body->modal_motion()->basis().modes) : 0;
     all.waveform_error = body->linear_error();
     all.changes = static_cast<int>(body->tier_changes());
+    all.cubic_error = body->cubic_error();
+    all.kept = body->bends() ? static_cast<int>(body->modal_motion()->cubic()->terms().kept()) : 0;
     all.cost = body->cost();
     return copy_out(__func__, all, status);
 }

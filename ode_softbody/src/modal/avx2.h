@@ -6,13 +6,16 @@
 // function compiled twice gives the same bits both ways: ODE_SOFTBODY_AVX2 marks the wide copy.
 #if defined(__x86_64__) && defined(__GNUC__)
 #define ODE_SOFTBODY_AVX2 __attribute__((target("avx2")))
+#define ODE_SOFTBODY_AVX512 __attribute__((target("avx512f")))
 #else
 #define ODE_SOFTBODY_AVX2
+#define ODE_SOFTBODY_AVX512
 #endif
 
 namespace ode::soft {
 
 /// Whether the copies marked ODE_SOFTBODY_AVX2 may run.
 inline bool has_avx2() { return active_isa() != Isa::baseline; }
+inline bool has_avx512() { return active_isa() == Isa::avx512; }
 
 } // namespace ode::soft

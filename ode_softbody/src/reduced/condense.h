@@ -11,7 +11,7 @@ namespace ode::soft {
 struct CubicExtent {
     std::size_t kept = 20;      ///< of the modes, the first ones; no more than there are
     std::size_t driven = 0;     ///< of those that follow; no more than are heard
-    std::size_t following = 24; ///< shapes of what answers at once
+    std::size_t following = 32; ///< shapes of what answers at once
 };
 
 /// The cubic tier's coefficients of a St. Venant-Kirchhoff solid. What is neither kept nor driven

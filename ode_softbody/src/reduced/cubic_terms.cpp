@@ -10,8 +10,8 @@
 namespace ode::soft {
 namespace {
 
-static_assert(CubicTerms::kLanes == 8);
-typedef float Lanes __attribute__((vector_size(32))); // two registers where there is no AVX
+static_assert(CubicTerms::kLanes == 16);
+typedef float Lanes __attribute__((vector_size(64))); // several registers but for AVX-512
 
 std::size_t whole_lanes(std::size_t n) noexcept {
     return (n + CubicTerms::kLanes - 1) / CubicTerms::kLanes * CubicTerms::kLanes;
@@ -20,7 +20,10 @@ std::size_t whole_lanes(std::size_t n) noexcept {
 [[gnu::always_inline]] inline float total(const Lanes& lanes) {
     float s[CubicTerms::kLanes];
     std::memcpy(s, &lanes, sizeof s);
-    return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
+    for (int width = 8; width > 0; width /= 2)
+        for (int i = 0; i < width; ++i)
+            s[i] += s[i + width];
+    return s[0];
 }
 
 /// Rows times products into `answer`, rows weighted by `by` into `sum`: both halves of the gradient
@@ -58,11 +61,18 @@ ODE_SOFTBODY_AVX2 void rows_wide(const float* c, std::size_t n, const float* by,
                                  float* answer, float* sum) {
     rows_body<kRows>(c, n, by, p, answer, sum);
 }
+template <int kRows>
+ODE_SOFTBODY_AVX512 void rows_widest(const float* c, std::size_t n, const float* by, const float* p,
+                                     float* answer, float* sum) {
+    rows_body<kRows>(c, n, by, p, answer, sum);
+}
 
 using Rows = void (*)(const float*, std::size_t, const float*, const float*, float*, float*);
 constexpr std::array<Rows, 4> kNarrow = {rows_narrow<1>, rows_narrow<2>, rows_narrow<3>,
                                          rows_narrow<4>};
 constexpr std::array<Rows, 4> kWide = {rows_wide<1>, rows_wide<2>, rows_wide<3>, rows_wide<4>};
+constexpr std::array<Rows, 4> kWidest = {rows_widest<1>, rows_widest<2>, rows_widest<3>,
+                                         rows_widest<4>};
 
 /// Adds coefficients of unsorted monomials up at their sorted ones.
 class Sorted {
@@ -142,8 +152,8 @@ CubicTerms::CubicTerms(const Coefficients& from, double unit)
 void CubicTerms::add_row(std::uint32_t source, std::size_t entries, std::span<const double> row) {
     const auto registers = static_cast<std::uint32_t>(whole_lanes(entries) / kLanes);
     if (group_.empty() || group_.back().registers != registers || group_.back().rows == 4)
-        group_.push_back({static_cast<std::uint32_t>(row_source_.size()), 0, registers,
-                          coefficient_.size()});
+        group_.push_back(
+            {static_cast<std::uint32_t>(row_source_.size()), 0, registers, coefficient_.size()});
     ++group_.back().rows;
     row_source_.push_back(source);
     const std::size_t begin = coefficient_.size();
@@ -177,7 +187,7 @@ double CubicTerms::evaluate(std::span<const double> amplitude, std::span<double>
     float* const by = work.answer.data() + row_source_.size();
     for (std::size_t r = 0; r < row_source_.size(); ++r)
         by[r] = work.source[row_source_[r]];
-    const auto& kernel = has_avx2() ? kWide : kNarrow;
+    const auto& kernel = has_avx512() ? kWidest : has_avx2() ? kWide : kNarrow;
     for (const Group& g : group_)
         kernel[g.rows - 1](coefficient_.data() + g.offset, g.registers, by + g.first, product,
                            work.answer.data() + g.first, work.sum.data());
@@ -190,18 +200,36 @@ double CubicTerms::evaluate(std::span<const double> amplitude, std::span<double>
         else
             force[row_source_[r]] -= scale_ * static_cast<double>(work.answer[r]);
     }
-    // By products, to by amplitudes.
+    add_slope(-scale_, force, work);
+    return energy;
+}
+
+// From a slope by products to one by amplitudes.
+void CubicTerms::add_slope(double sign, std::span<double> force, const Work& work) const noexcept {
     const float* d = work.sum.data();
     for (std::size_t i = order_.modes; i-- > 0;) {
         double own = 0;
         const auto qi = static_cast<double>(work.source[i]);
         for (std::size_t j = i; j < order_.modes; ++j, ++d) {
             own += static_cast<double>(*d) * static_cast<double>(work.source[j]);
-            force[j] -= scale_ * static_cast<double>(*d) * qi;
+            force[j] += sign * static_cast<double>(*d) * qi;
         }
-        force[i] -= scale_ * own;
+        force[i] += sign * own;
     }
-    return energy;
+}
+
+void CubicTerms::add_push(std::span<const double> amplitude, std::span<const double> push,
+                          std::span<double> force, Work& work) const noexcept {
+    fill(amplitude.first(order_.modes), work);
+    std::fill(work.sum.begin(), work.sum.end(), 0.0f);
+    auto* const sum = reinterpret_cast<Lanes*>(work.sum.data());
+    for (std::size_t s = 0; s < follow_.size(); ++s) {
+        const auto* const c = reinterpret_cast<const Lanes*>(follow_row_.data() + s * pairs_);
+        const auto by = static_cast<float>(push[s]);
+        for (std::size_t k = 0; k < pairs_ / kLanes; ++k)
+            sum[k] += c[k] * by;
+    }
+    add_slope(scale_, force, work);
 }
 
 void CubicTerms::follow(std::span<const double> amplitude, std::span<const double> rate,

@@ -23,7 +23,7 @@ namespace ode::soft {
 /// products (PairOrder), of which one pass makes energy and gradient.
 class CubicTerms {
 public:
-    static constexpr std::size_t kLanes = 8;
+    static constexpr std::size_t kLanes = 16;
 
     /// Coefficients, in the order of PairOrder.
     struct Coefficients {
@@ -35,6 +35,13 @@ public:
         Eigen::MatrixXd following;  ///< one row a shape: how far products move it
         std::vector<double> shape;  ///< x y z of each node, shape after shape
         std::vector<double> follow; ///< typical frequency of each shape [rad/s]
+    };
+    /// What is heard of the body: its audible modes and what follows, by rising frequency. How what
+    /// follows decays is of no account, it is told of anew all the time.
+    struct Sounding {
+        std::vector<int> order;           ///< mode, or number of audible modes plus shape
+        std::vector<double> omega, decay; ///< [rad/s], [1/s]
+        std::vector<float> shape;         ///< row 3 n + axis of all these
     };
     /// @param unit  amplitude that single precision is scaled by, about a thickness
     ///              [kg^1/2 m].
@@ -57,6 +64,11 @@ public:
     double evaluate(std::span<const double> amplitude, std::span<double> force,
                     Work& work) const noexcept;
 
+    /// What a push at what follows does to the kept modes: adds it to `force`, in its unit.
+    /// @param push  at each shape, columns()
+    void add_push(std::span<const double> amplitude, std::span<const double> push,
+                  std::span<double> force, Work& work) const noexcept;
+
     /// How far what follows has moved, and how fast.
     /// @param amplitude, rate  of the kept modes
     /// @param place, speed     columns(), in units of shape
@@ -64,7 +76,13 @@ public:
                 std::span<double> place, std::span<double> speed, Work& work) const noexcept;
     /// Row 3 n + axis of columns(), as ModalBasis::shape.
     std::span<const float> shape() const noexcept { return shape_; }
+    const float* row(std::size_t node) const noexcept {
+        return shape_.data() + 3 * node * columns_;
+    }
     std::span<const double> follow_frequency() const noexcept { return follow_; } ///< [rad/s]
+
+    const Sounding& sounding() const noexcept { return sounding_; }
+    void set_sounding(Sounding sounding) { sounding_ = std::move(sounding); }
 
 private:
     /// Up to four rows of one length, one after another.
@@ -73,6 +91,7 @@ private:
         std::size_t offset; ///< [floats]
     };
     void add_row(std::uint32_t source, std::size_t entries, std::span<const double> row);
+    void add_slope(double sign, std::span<double> force, const Work& work) const noexcept;
     void fill(std::span<const double> amplitude, Work& work) const noexcept;
 
     PairOrder order_;
@@ -86,6 +105,7 @@ private:
     AlignedVector<float> follow_row_; ///< pairs_ each
     AlignedVector<float> shape_;
     std::vector<double> follow_;
+    Sounding sounding_;
 };
 
 } // namespace ode::soft

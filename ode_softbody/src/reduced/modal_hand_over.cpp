@@ -73,13 +73,22 @@ double ModalMotion::take(const NodeState& nodes, std::span<const int> held) noex
                 b.mass[n] * (back * (nodes.velocity[n] - state_.velocity) - spin.cross(local)),
                 state_.rate);
     }
+    if (bends_)
+        cubic_->restart();
+    const auto following = followers();
+    // Of what follows by itself, modes that are neither kept nor driven have their part too.
+    for (std::size_t n = 0; following && n < b.nodes(); ++n) {
+        project(b, n, -b.mass[n] * following->place.at(n), state_.amplitude);
+        project(b, n, -b.mass[n] * following->speed.at(n), state_.rate);
+    }
     const Spread rate(b, awake(state_.rate), single_[1]);
     double lost = 0;
     for (std::size_t n = 0; n < b.nodes(); ++n) {
         const Vec3 local = back * (nodes.position[n] - state_.center);
-        lost += b.mass[n] *
-                (back * (nodes.velocity[n] - state_.velocity) - spin.cross(local) - rate.at(n))
-                    .squaredNorm();
+        Vec3 left = back * (nodes.velocity[n] - state_.velocity) - spin.cross(local) - rate.at(n);
+        if (following)
+            left -= following->speed.at(n);
+        lost += b.mass[n] * left.squaredNorm();
     }
     return lost;
 }
@@ -88,12 +97,18 @@ void ModalMotion::give(NodeState& nodes) const noexcept {
     const ModalBasis& b = *basis_;
     const Spread moved(b, awake(state_.amplitude), single_[0]),
         rate(b, awake(state_.rate), single_[1]);
+    const auto following = followers();
     const Mat3 turn = state_.turn.toRotationMatrix();
     Mat3 inertia = Mat3::Zero();
     Vec3 left = state_.spin_momentum, drift = Vec3::Zero();
     for (std::size_t n = 0; n < b.nodes(); ++n) {
-        const Vec3 arm = turn * (b.rest[n] + moved.at(n));
-        const Vec3 own = turn * rate.at(n);
+        Vec3 arm = b.rest[n] + moved.at(n), own = rate.at(n);
+        if (following) {
+            arm += following->place.at(n);
+            own += following->speed.at(n);
+        }
+        arm = turn * arm;
+        own = turn * own;
         nodes.position[n] = state_.center + arm;
         nodes.velocity[n] = own;
         inertia += b.mass[n] * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
@@ -113,11 +128,17 @@ void ModalMotion::place(std::span<const int> nodes, NodeState& out) const noexce
     const Vec3 spin = this->spin();
     const Spread moved(*basis_, awake(state_.amplitude), single_[0]);
     const Spread rate(*basis_, awake(state_.rate), single_[1]);
+    const auto following = followers();
     for (const int node : nodes) {
         const auto n = static_cast<std::size_t>(node);
-        const Vec3 arm = turn * (basis_->rest[n] + moved.at(n));
+        Vec3 arm = basis_->rest[n] + moved.at(n), own = rate.at(n);
+        if (following) {
+            arm += following->place.at(n);
+            own += following->speed.at(n);
+        }
+        arm = turn * arm;
         out.position[n] = state_.center + arm;
-        out.velocity[n] = state_.velocity + spin.cross(arm) + turn * rate.at(n);
+        out.velocity[n] = state_.velocity + spin.cross(arm) + turn * own;
     }
 }
 

@@ -13,7 +13,7 @@ double ModalMotion::vibration_energy() const noexcept {
         const double a = basis_->omega[k] * state_.amplitude[k];
         sum += a * a + state_.rate[k] * state_.rate[k];
     }
-    return sum / 2;
+    return sum / 2 + (bends_ ? cubic_->energy() : 0);
 }
 
 double ModalMotion::rigid_energy() const noexcept {

@@ -51,6 +51,8 @@ void ModalMotion::set_load(const Vec3& gravity, const NodeArray* forces) noexcep
             for (std::size_t axis = 0; axis < 3; ++axis)
                 load_[k] += b.inertia_share[axis * b.columns + k] * local[static_cast<int>(axis)];
     }
+    if (bends_)
+        std::fill(following_.place.begin(), following_.place.end(), 0.0);
     const Spread moved(b, awake(state_.amplitude), single_[0]);
     for (std::size_t n = 0; forces && n < b.nodes(); ++n) {
         const Vec3 f = (*forces)[n];
@@ -59,14 +61,20 @@ void ModalMotion::set_load(const Vec3& gravity, const NodeArray* forces) noexcep
         steady_force_ += f;
         const Vec3 local = back * f;
         project(b, n, local, load_);
+        if (bends_)
+            project(cubic_->terms().row(n), cubic_->terms().columns(), local, following_.place);
         steady_torque_ += (state_.turn * (b.rest[n] + moved.at(n))).cross(f);
     }
+    if (bends_)
+        cubic_->set_load(following_.place);
     loaded_ = std::any_of(load_.begin(), load_.end(), [](double f) { return f != 0; });
 }
 
 void ModalMotion::keep() noexcept {
     copy(state_, kept_);
     kept_awake_ = awake_;
+    if (bends_)
+        cubic_->keep();
 }
 
 void ModalMotion::take_back() noexcept {
@@ -76,6 +84,8 @@ void ModalMotion::take_back() noexcept {
     awake_ = kept_awake_;
     copy(kept_, state_);
     foreseen_ = 0;
+    if (bends_)
+        cubic_->take_back();
 }
 
 void ModalMotion::copy(const ModalState& from, ModalState& to) const noexcept {
@@ -90,6 +100,7 @@ void ModalMotion::copy(const ModalState& from, ModalState& to) const noexcept {
 const ModalState& ModalMotion::foresee(double dt) noexcept {
     if (foreseen_ == dt)
         return ahead_;
+    begin_kicks(dt);
     copy(state_, ahead_); // what sleeps is zero in both
     foreseen_ = 0;
     move_on(dt);
@@ -226,10 +237,15 @@ void ModalMotion::advance(double dt) noexcept {
     if (foreseen_ == dt) {
         std::swap(state_, ahead_);
         foreseen_ = 0;
+        if (bends_)
+            cubic_->end(dt, state_.amplitude, state_.rate);
         return;
     }
     foreseen_ = 0;
+    begin_kicks(dt);
     move_on(dt);
+    if (bends_)
+        cubic_->end(dt, state_.amplitude, state_.rate);
 }
 
 void ModalMotion::move_on(double dt) noexcept {

@@ -2,11 +2,14 @@
 
 #include "couple/node_forces.h"
 #include "integrate/node_state.h"
+#include "reduced/cubic_kicks.h"
 #include "reduced/modal_basis.h"
+#include "reduced/mode_rows.h"
 #include "reduced/oscillators.h"
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 
 namespace ode::soft {
@@ -37,6 +40,20 @@ public:
     const ModalBasis& basis() const noexcept { return *basis_; }
     const std::shared_ptr<const ModalBasis>& shared_basis() const noexcept { return basis_; }
     const ModalState& state() const noexcept { return state_; }
+
+    /// What isn't linear, to be used from now on by use_cubic(true). Allocates.
+    void set_cubic(std::shared_ptr<const CubicTerms> terms);
+    bool has_cubic() const noexcept { return cubic_.has_value(); }
+    void use_cubic(bool on) noexcept;
+    /// nullptr: it is linear at present.
+    const CubicKicks* cubic() const noexcept { return bends_ ? &*cubic_ : nullptr; }
+    CubicKicks* cubic() noexcept { return bends_ ? &*cubic_ : nullptr; }
+    /// How much of it isn't linear, whether that is used or not: CubicKicks::share(). With
+    /// set_cubic() only.
+    double cubic_share() noexcept { return cubic_->share(state_.amplitude, state_.rate); }
+    /// Brings the rates to this moment, which within an interval of kicks they aren't.
+    void level() noexcept;
+
     void keep() noexcept;      ///< the state, for
     void take_back() noexcept; ///< coming back to it
 
@@ -87,6 +104,14 @@ public:
     /// [1/kg].
     double inverse_mass(std::size_t node, const Vec3& direction) const noexcept;
 
+    /// Amplitudes and rates of what is heard, in the order of SoundingModes or of the basis; good
+    /// until the motion goes on.
+    struct Shown {
+        const double *amplitude, *rate;
+        std::size_t count;
+    };
+    Shown shown() const noexcept;
+
 private:
     void fit_frame(const NodeArray& position, std::span<const int> held) noexcept;
     void turn_by(const Vec3& spin, double dt) noexcept;
@@ -98,6 +123,13 @@ private:
     int pieces(const Vec3& spin, double dt) const noexcept;
     void rest_what_died() noexcept;
     void copy(const ModalState& from, ModalState& to) const noexcept; ///< what is awake
+    void begin_kicks(double dt) noexcept;                             ///< before a substep
+    /// What follows the modes at once, to be spread over nodes; none if linear.
+    struct Followers {
+        Spread place, speed;
+    };
+    std::optional<Followers> followers() const noexcept;
+    void find_following() const noexcept;
 
     std::shared_ptr<const ModalBasis> basis_;
     Oscillators oscillators_;
@@ -121,6 +153,14 @@ private:
     bool was_pushed_ = false;                            ///< in the last
     AlignedVector<double> settled_; ///< scratch: where the modes would come to rest
     bool loaded_ = false;           ///< load_ isn't zero
+    std::optional<CubicKicks> cubic_;
+    bool bends_ = false; ///< by them
+    struct Following {   ///< scratch
+        AlignedVector<double> place, speed, shown_amplitude, shown_rate;
+        AlignedVector<float> single_place, single_speed;
+        CubicTerms::Work work;
+    };
+    mutable Following following_;
 };
 
 } // namespace ode::soft

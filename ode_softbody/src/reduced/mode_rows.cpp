@@ -153,8 +153,11 @@ ODE_SOFTBODY_BOTH(squares, void,
 
 void project(const ModalBasis& basis, std::size_t node, const Vec3& f,
              std::span<double> q) noexcept {
-    (has_avx2() ? project_wide : project_narrow)(basis.row(node, 0), basis.columns, q.size(),
-                                                 f.data(), q.data());
+    project(basis.row(node, 0), basis.columns, f, q);
+}
+
+void project(const float* row, std::size_t stride, const Vec3& f, std::span<double> q) noexcept {
+    (has_avx2() ? project_wide : project_narrow)(row, stride, q.size(), f.data(), q.data());
 }
 
 void project(const ModalBasis& basis, std::size_t node, const Vec3& f, std::span<const float> scale,
@@ -189,8 +192,8 @@ std::array<double, 6> squares(const ModalBasis& basis, std::size_t node,
     return out;
 }
 
-Spread::Spread(const ModalBasis& basis, std::span<const float> q) noexcept
-    : basis_(basis), q_(q.data()), columns_(q.size()),
+Spread::Spread(const float* shape, std::size_t stride, std::span<const float> q) noexcept
+    : shape_(shape), stride_(stride), q_(q.data()), columns_(q.size()),
       expand_(has_avx2() ? expand_wide : expand_narrow),
       expand_pair_(has_avx2() ? expand_pair_wide : expand_pair_narrow) {}
 

@@ -13,6 +13,9 @@ namespace ode::soft {
 void project(const ModalBasis& basis, std::size_t node, const Vec3& f,
              std::span<double> q) noexcept;
 
+/// The same of rows of any stride, whole lanes, all of whose columns q has.
+void project(const float* row, std::size_t stride, const Vec3& f, std::span<double> q) noexcept;
+
 /// The same in single precision, mode by mode times `scale`.
 void project(const ModalBasis& basis, std::size_t node, const Vec3& f, std::span<const float> scale,
              std::span<float> q) noexcept;
@@ -32,25 +35,30 @@ public:
     /// @param scratch  as long at least; in use while this lives.
     Spread(const ModalBasis& basis, std::span<const double> q, std::span<float> scratch) noexcept;
     /// @param q  borrowed for life.
-    Spread(const ModalBasis& basis, std::span<const float> q) noexcept;
+    Spread(const ModalBasis& basis, std::span<const float> q) noexcept
+        : Spread(basis.shape.data(), basis.columns, q) {}
+    /// @param shape  rows of `stride` columns, whole lanes, as ModalBasis::shape; borrowed for
+    /// life.
+    Spread(const float* shape, std::size_t stride, std::span<const float> q) noexcept;
 
     /// The node's rows times q.
     Vec3 at(std::size_t node) const noexcept {
         Vec3 out;
-        expand_(basis_.row(node, 0), basis_.columns, columns_, q_, out.data());
+        expand_(shape_ + 3 * node * stride_, stride_, columns_, q_, out.data());
         return out;
     }
 
     /// The same of this and another of as many modes: rows are fetched once.
     void at(std::size_t node, const Spread& other, Vec3& own, Vec3& others) const noexcept {
-        expand_pair_(basis_.row(node, 0), basis_.columns, columns_, q_, other.q_, own.data(),
+        expand_pair_(shape_ + 3 * node * stride_, stride_, columns_, q_, other.q_, own.data(),
                      others.data());
     }
 
 private:
-    const ModalBasis& basis_;
+    const float* shape_;
+    std::size_t stride_;
     const float* q_;
-    std::size_t columns_; ///< of the basis, that q has
+    std::size_t columns_; ///< that q has
     void (*expand_)(const float*, std::size_t, std::size_t, const float*, double*);
     void (*expand_pair_)(const float*, std::size_t, std::size_t, const float*, const float*,
                          double*, double*);

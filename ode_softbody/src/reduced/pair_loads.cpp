@@ -79,8 +79,8 @@ public:
 
 private:
     void pair_with(Index i, double lambda, double mu) {
-        const auto first = static_cast<Index>(order_.at(static_cast<std::size_t>(i),
-                                                        static_cast<std::size_t>(i)));
+        const auto first =
+            static_cast<Index>(order_.at(static_cast<std::size_t>(i), static_cast<std::size_t>(i)));
         const Index many = static_cast<Index>(order_.modes) - i;
         const auto h = [&](int r, int c) { return h_.row(3 * r + c).segment(i, many).array(); };
         const auto s = [&](int r, int c) { return s_.row(3 * r + c).segment(i, many).array(); };
@@ -104,7 +104,7 @@ private:
                 p.setZero();
                 for (int m = 0; m < 3; ++m)
                     p += hi(r, m) * s(m, c) + h(r, m) * si(m, c);
-                p[0] *= 0.5; // itself: H S once
+                p[0] *= 0.5;                   // itself: H S once
                 p += mu * g.row(kPlace[r][c]); // C : H^T H / 2, of which g holds the H^T H
                 if (r == c)
                     p += lambda / 2 * trace;
@@ -141,6 +141,8 @@ PairLoads pair_loads(const TetMesh& mesh, std::span<const Solid> solids, const M
     RowMatrix strain(7 * kBatch, pairs);
     Index held = 0;
     const auto flush = [&] {
+        if (held == 0) // Eigen divides by it
+            return;
         const auto some = strain.topRows(7 * held);
         out.quartic.selfadjointView<Eigen::Lower>().rankUpdate(some.transpose(), 0.125);
         held = 0;

@@ -30,6 +30,7 @@
 namespace ode::soft {
 
 class SoftWorld;
+struct ModalOptions;
 
 // Of the critical step, by default: room for what the bound at rest doesn't see, contact stiffness
 // (its share of the largest eigenvalue is limited to 0.15, which shrinks the step by 1/sqrt(1.15) =
@@ -151,6 +152,7 @@ public:
     /// Substep while contact is near, whose nodes come at the other side at `speed` [m/s], [s].
     double contact_pace(double speed) const noexcept;
     bool rings() const noexcept { return modes_ != nullptr; } ///< it moves in its modes
+    bool bends() const noexcept { return modes_ && modes_->motion().cubic(); } ///< non-linearly
     /// nullptr while it doesn't.
     const ModalMotion* modal_motion() const noexcept {
         return modes_ ? &modes_->motion() : nullptr;
@@ -158,6 +160,7 @@ public:
     unsigned long tier_changes() const noexcept { return tier_changes_; }
     /// Of the linear tier's waveform, as last estimated, relative; infinite before.
     double linear_error() const noexcept { return linear_error_; }
+    double cubic_error() const noexcept { return cubic_error_; } ///< the same of the cubic tier's
     double waveform_tolerance() const noexcept { return waveform_tolerance_; }
     void set_waveform_tolerance(double relative) noexcept { waveform_tolerance_ = relative; }
 
@@ -238,23 +241,31 @@ private:
     void fit_velocity(double dt) noexcept;
     void take_load(const Vec3& gravity) noexcept;
 
-    // body_tier.cpp
+    // body_modes.cpp
     bool may_ring() noexcept; ///< modes can be had
+    bool may_bend() noexcept; ///< and what isn't linear of them
+    ModalOptions modal_options() const;
+    std::shared_ptr<const ModalBasis> find_basis() noexcept;
+    std::shared_ptr<const CubicTerms> find_cubic() noexcept;
+
+    // body_tier.cpp
     void choose_tier() noexcept;
+    void choose_in_modes(double blow) noexcept; ///< automatically, in modes
     /// Closing speed of the fastest contact that so many steps may bring [m/s].
     double blow_ahead(double steps) noexcept;
-    /// Whether such a blow may be taken in modes.
-    bool bears_in_modes(double blow, ModalTier& modes) noexcept;
+    /// Whether such a blow may be taken in modes, and as it needs.
+    bool bears_in_modes(double blow, ModalTier& modes, bool cubic) noexcept;
     double linear_error_of(double displacement) const noexcept; ///< [m]
+    double cubic_error_of(double displacement) const noexcept;
     /// Which modes contact moves. @param blow  what may come within the step [m/s].
     void choose_band(double blow) noexcept;
     void set_band(std::size_t columns) noexcept;
     void level_velocity() noexcept; ///< brings it to the positions' time
-    void enter_modes() noexcept;
+    void enter_modes(bool bends) noexcept;
     void leave_modes() noexcept;  ///< the nodes take over
     void forget_modes() noexcept; ///< supports have changed
-    std::shared_ptr<const ModalBasis> find_basis() noexcept;
-    double estimate_linear_error(ModalTier& modes) noexcept;
+    void bend(bool on) noexcept;  ///< in modes: with what isn't linear, or without
+    void estimate_errors(ModalTier& modes) noexcept;
     void begin_ringing_step(const Vec3& gravity) noexcept;
     void advance_ringing(double dt) noexcept;
     /// Inverse of the mass that contact meets at each mesh node [1/kg]; 0: held.
@@ -381,9 +392,11 @@ private:
     std::unique_ptr<ModalTier> modes_;      ///< while it moves in them
     std::unique_ptr<ModalTier> idle_modes_; ///< while it doesn't, once it did
     bool modes_known_ = false;              ///< asked for since supports last changed
+    bool cubic_known_ = false;              ///< the same of what isn't linear of them
     unsigned long tier_changes_ = 0;
     double waveform_tolerance_ = 0.025; ///< of modes against nodes: see linear_error_of()
     double linear_error_ = std::numeric_limits<double>::infinity();
+    double cubic_error_ = std::numeric_limits<double>::infinity();
     double thickness_ = 0;  ///< twice volume over surface [m]
     double gentle_for_ = 0; ///< no blow [s]
     double sampled_at_ = 0; ///< displacement at which the error was last estimated [m]

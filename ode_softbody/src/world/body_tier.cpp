@@ -1,11 +1,8 @@
 // Whether a body moves node by node or in its modes, and how it changes from one to the other.
 #include "base/error.h"
 #include "collide/rigid_shape.h"
-#include "mesh/jacobian.h"
-#include "modal/cache.h"
-#include "modal/modal_decay.h"
-#include "reduced/residual_flexibility.h"
 #include "world/body.h"
+#include "world/modal_limits.h"
 #include "world/soft_world.h"
 
 #include <ode/objects.h>
@@ -18,13 +15,6 @@
 namespace ode::soft {
 namespace {
 
-constexpr double kAudible = 22000;      ///< [Hz]
-constexpr std::size_t kMostModes = 500; ///< a body with more is soft: it deforms rather than rings
-// Modes up to here take part in contact, whose pulses are far shorter than the shortest period that
-// is heard: with those heard alone, a blow errs by 16 % (tests/physics/tier/fall_test.cpp).
-constexpr double kContactBand = 3.5 * kAudible;
-constexpr double kLeastBand = 3 * kAudible; ///< where that takes more than kMostModes
-
 constexpr double kWellWithin = 0.5; ///< of the tolerance, before modes take over: hysteresis
 constexpr double kUrgent = 4;       ///< tolerances off: not even a contact is waited for
 constexpr int kSampled = 8;         ///< steps between estimates of the error in modes
@@ -36,9 +26,14 @@ constexpr double kGrown = 1.5;      ///< of the displacement, that asks for one 
 // over 50 ms.
 constexpr double kErrorPerThickness = 0.3;
 constexpr double kLeastError = 1.4e-3;
+// The cubic tier's: 0.02 of a bowl struck in flight, 0.18 of one that falls on a floor
+// (fall_test.cpp), whose high modes are not kept. Further bent, the polynomial is none of the
+// solid's energy.
+constexpr double kCubicErrorPerThickness = 0.18;
+constexpr double kMostBent = 0.25;
 
-// What moves slower than kGentle is pushed at kGentlePace, whose forces move no higher mode.
-constexpr double kGentleBand = 2 * kAudible;
+// What moves slower than kGentle is pushed at kGentlePace, whose forces move no mode above
+// kGentleBand.
 constexpr double kGentleAfter = 0.01; ///< without a blow [s]
 
 // Contact in modes: 16 substeps to the period of the highest audible tone.
@@ -49,21 +44,6 @@ constexpr double kGentlePace = 1 / (4 * kAudible);
 constexpr double kWatchedPace = 1 / (8 * kAudible);
 constexpr double kGentle = 0.1; ///< [m/s]
 constexpr double kEarly = 4;    ///< steps in which no blow may come, before modes take over
-
-std::vector<Vec3> rest_normals(const TetMesh& mesh, const SurfaceNodes& surface) {
-    std::vector<Vec3> out;
-    for (const int node : surface.node) {
-        Vec3 sum = Vec3::Zero();
-        for (const int t : surface.fan(node)) {
-            const auto& [a, b, c] = surface.triangle[static_cast<std::size_t>(t)];
-            const Vec3& corner = mesh.node[static_cast<std::size_t>(a)];
-            sum += (mesh.node[static_cast<std::size_t>(b)] - corner)
-                       .cross(mesh.node[static_cast<std::size_t>(c)] - corner);
-        }
-        out.push_back(sum.stableNormalized());
-    }
-    return out;
-}
 
 /// Of ODE's body; none: the world's.
 RigidMotion motion_of(dBodyID body) {
@@ -78,18 +58,6 @@ RigidMotion motion_of(dBodyID body) {
     return motion;
 }
 
-/// Whether held nodes hold a body fast: three that are in no line.
-bool hold_fast(const TetMesh& mesh, std::span<const int> held) {
-    for (std::size_t i = 2; i < held.size(); ++i) {
-        const Vec3& a = mesh.node[static_cast<std::size_t>(held[0])];
-        const Vec3 one = mesh.node[static_cast<std::size_t>(held[1])] - a;
-        const Vec3 two = mesh.node[static_cast<std::size_t>(held[i])] - a;
-        if (one.cross(two).norm() > 1e-6 * one.norm() * two.norm())
-            return true;
-    }
-    return false;
-}
-
 } // namespace
 
 void Body::set_tier(TierChoice choice) noexcept {
@@ -99,86 +67,27 @@ void Body::set_tier(TierChoice choice) noexcept {
         leave_modes();
 }
 
-std::shared_ptr<const ModalBasis> Body::find_basis() noexcept {
-    try {
-        ModalOptions options;
-        options.order = mesh_.order;
-        options.mass = MassKind::kLumped; // as the nodes move: a change of tier changes no pitch
-        options.estimate = false;
-        options.max_frequency = kContactBand;
-        options.max_modes = kMostModes;
-        options.clamped = pinned_;
-        // A table of decays is the body's own: nothing to share.
-        const std::string key =
-            form_.damping_table.empty() ? content_hash(mesh_, solids_, options) : std::string();
-        return world_.basis_cabinet().get(key, [&] {
-            const ModalModel modes = cached_modes(mesh_, solids_, options);
-            if (modes.mode_count() == 0 || modes.frequency.front() > kAudible)
-                throw InputError("it has no vibration mode below 22 kHz");
-            if (!modes.complete && modes.frequency.back() < kAudible)
-                throw InputError(format("it has more than %zu modes below 22 kHz: it is too "
-                                        "soft to be computed by them",
-                                        kMostModes));
-            if (modes.rigid_modes != (pinned_.empty() ? 6 : 0))
-                throw InputError(format("it has %d motions without strain: it is not one piece "
-                                        "that is free or held fast",
-                                        modes.rigid_modes));
-            std::vector<double> decay;
-            if (form_.damping_table.empty())
-                decay = modal_decays(mesh_, solids_, modes);
-            else
-                for (const double f : modes.frequency)
-                    decay.push_back(form_.damping_table.decay(f));
-            ModalBasis basis = make_basis(modes, mesh_.node, mass(), decay, kAudible, kGentleBand,
-                                          !pinned_.empty());
-            const std::vector<Vec3> normal = rest_normals(mesh_, contact_nodes_);
-            const std::size_t kept[] = {std::min(basis.gentle_columns, basis.modes), basis.modes};
-            auto residual = residual_flexibility(mesh_, solids_, options, modes,
-                                                 {contact_nodes_.node, normal}, kept);
-            basis.gentle_residual = std::move(residual[0]);
-            basis.residual = std::move(residual[1]);
-            return basis;
-        });
-    } catch (const std::exception& e) {
-        if (tier_choice_ == TierChoice::modes)
-            report(format("a soft body of %zu nodes stays in the explicit tier: %s",
-                          mesh_.node.size(), e.what()));
-        return nullptr;
-    }
-}
-
 void Body::forget_modes() noexcept {
     leave_modes();
     idle_modes_.reset();
-    modes_known_ = false;
+    modes_known_ = cubic_known_ = false;
     unsampled_ = kSampled;
 }
 
-bool Body::may_ring() noexcept {
-    if (!nailed_.empty() || (!pinned_.empty() && !hold_fast(mesh_, pinned_)))
-        return false;
-    if (modes_ || modes_known_)
-        return modes_ || idle_modes_;
-    modes_known_ = true;
-    if (const auto basis = find_basis()) {
-        idle_modes_ = std::make_unique<ModalTier>(basis, contact_nodes_,
-                                                  rest_normals(mesh_, contact_nodes_), state_);
-        double volume = 0, area = 0;
-        for (std::size_t e = 0; e < mesh_.element_count(); ++e)
-            volume += element_volume(mesh_, e);
-        for (const double a : contact_nodes_.area)
-            area += a;
-        thickness_ = 2 * volume / area;
-    }
-    return idle_modes_ != nullptr;
-}
-
-double Body::estimate_linear_error(ModalTier& modes) noexcept {
-    return linear_error_of(modes.motion().displacement_envelope(contact_nodes_.node));
+void Body::estimate_errors(ModalTier& modes) noexcept {
+    const double swing = modes.motion().displacement_envelope(contact_nodes_.node);
+    linear_error_ = linear_error_of(swing);
+    cubic_error_ = cubic_error_of(swing);
 }
 
 double Body::linear_error_of(double displacement) const noexcept {
     return kLeastError + kErrorPerThickness * displacement / thickness_;
+}
+
+double Body::cubic_error_of(double displacement) const noexcept {
+    const double bent = displacement / thickness_;
+    return bent > kMostBent ? std::numeric_limits<double>::infinity()
+                            : kLeastError + kCubicErrorPerThickness * bent;
 }
 
 void Body::choose_tier() noexcept {
@@ -188,48 +97,79 @@ void Body::choose_tier() noexcept {
         leave_modes();
         return;
     }
-    if (tier_choice_ == TierChoice::modes) {
+    if (tier_choice_ != TierChoice::automatic) {
+        const bool bends = tier_choice_ == TierChoice::cubic && may_bend();
         if (!modes_)
-            enter_modes();
+            enter_modes(bends);
+        else if (bends != this->bends())
+            bend(bends);
         choose_band(blow_ahead(1));
         return;
     }
     ++unsampled_;
     if (modes_) {
-        const double blow = blow_ahead(1);
-        if (!bears_in_modes(blow, *modes_)) {
-            leave_modes();
-            return;
-        }
-        choose_band(blow);
-        const double now = modes_->motion().largest_displacement();
-        if (unsampled_ < kSampled && now < kGrown * sampled_at_)
-            return;
-        unsampled_ = 0;
-        sampled_at_ = now;
-        linear_error_ = estimate_linear_error(*modes_);
-        if (linear_error_ > (bearing_points_ == 0 ? 1 : kUrgent) * waveform_tolerance_)
-            leave_modes();
+        choose_in_modes(blow_ahead(1));
         return;
     }
     if (unsampled_ < kSettled || bearing_points_ != 0)
         return;
     const double blow = blow_ahead(kEarly);
-    if (!bears_in_modes(blow, *idle_modes_))
+    bool cubic = !bears_in_modes(blow, *idle_modes_, false);
+    if (cubic && !(bears_in_modes(blow, *idle_modes_, true) && may_bend()))
         return;
     unsampled_ = 0;
     level_velocity();
     ModalMotion& motion = idle_modes_->motion();
-    const double lost = motion.take(state_, pinned_);
-    linear_error_ = estimate_linear_error(*idle_modes_);
-    if (linear_error_ > kWellWithin * waveform_tolerance_)
+    motion.use_cubic(cubic);
+    double lost = motion.take(state_, pinned_);
+    estimate_errors(*idle_modes_);
+    const double bearable = kWellWithin * waveform_tolerance_;
+    if (!cubic && linear_error_ > bearable) {
+        if (cubic_error_ > bearable || !may_bend())
+            return;
+        cubic = true;
+        motion.use_cubic(true);
+        lost = motion.take(state_, pinned_);
+    }
+    if (cubic && cubic_error_ > bearable)
         return;
     // What is in no mode would be lost with the change.
-    const double bearable = kWellWithin * waveform_tolerance_;
     if (lost > noise_ + bearable * bearable * (motion.vibration_energy() + lost))
         return;
     sampled_at_ = motion.largest_displacement();
-    enter_modes();
+    enter_modes(cubic);
+}
+
+void Body::choose_in_modes(double blow) noexcept {
+    const bool linear = bears_in_modes(blow, *modes_, false);
+    if (!linear && !bends()) {
+        if (!bears_in_modes(blow, *modes_, true) || !may_bend()) {
+            leave_modes();
+            return;
+        }
+        bend(true);
+    } else if (!linear && !bears_in_modes(blow, *modes_, true)) {
+        leave_modes();
+        return;
+    }
+    choose_band(blow);
+    const double now = modes_->motion().largest_displacement();
+    if (unsampled_ < kSampled && now < kGrown * sampled_at_)
+        return;
+    unsampled_ = 0;
+    sampled_at_ = now;
+    estimate_errors(*modes_);
+    const double most = (bearing_points_ == 0 ? 1 : kUrgent) * waveform_tolerance_;
+    if (bends() && cubic_error_ > most)
+        leave_modes();
+    else if (bends() && linear && linear_error_ < kWellWithin * waveform_tolerance_)
+        bend(false);
+    else if (!bends() && linear_error_ > waveform_tolerance_) {
+        if (cubic_error_ <= waveform_tolerance_ && may_bend())
+            bend(true);
+        else if (linear_error_ > most)
+            leave_modes();
+    }
 }
 
 void Body::choose_band(double blow) noexcept {
@@ -249,7 +189,7 @@ void Body::set_band(std::size_t columns) noexcept {
     contact_nodes_.residual_across = residual.across;
 }
 
-bool Body::bears_in_modes(double blow, ModalTier& modes) noexcept {
+bool Body::bears_in_modes(double blow, ModalTier& modes, bool cubic) noexcept {
     if (blow <= kGentle)
         return true;
     const ModalBasis& basis = modes.motion().basis();
@@ -259,7 +199,7 @@ bool Body::bears_in_modes(double blow, ModalTier& modes) noexcept {
     // A blow displaces what it strikes by its speed over the lowest frequency at most.
     const double swing = (modes_ ? modes.motion().displacement_envelope(contact_nodes_.node) : 0) +
                          blow / basis.omega[0];
-    return linear_error_of(swing) <= waveform_tolerance_;
+    return (cubic ? cubic_error_of(swing) : linear_error_of(swing)) <= waveform_tolerance_;
 }
 
 double Body::blow_ahead(double steps) noexcept {
@@ -303,9 +243,16 @@ void Body::level_velocity() noexcept {
     last_dt_ = 0;
 }
 
-void Body::enter_modes() noexcept {
+void Body::bend(bool on) noexcept {
+    modes_->motion().use_cubic(on);
+    modes_->moved(true);
+    ++tier_changes_;
+}
+
+void Body::enter_modes(bool bends) noexcept {
     level_velocity();
     modes_ = std::move(idle_modes_);
+    modes_->motion().use_cubic(bends);
     modes_->motion().take(state_, pinned_);
     modes_->moved(true);
     set_band(modes_->motion().basis().columns);
@@ -320,6 +267,7 @@ void Body::enter_modes() noexcept {
 void Body::leave_modes() noexcept {
     if (!modes_)
         return;
+    modes_->motion().level();
     modes_->refresh();
     idle_modes_ = std::move(modes_);
     contact_nodes_.residual.clear();
@@ -351,7 +299,10 @@ void Body::advance_ringing(double dt) noexcept {
 }
 
 void Body::pace(bool watched) noexcept {
-    modes_->set_pace(watched ? kWatchedPace : std::numeric_limits<double>::infinity());
+    double longest = watched ? kWatchedPace : std::numeric_limits<double>::infinity();
+    if (const CubicKicks* kicks = modes_->motion().cubic())
+        longest = std::min(longest, kicks->longest());
+    modes_->set_pace(longest);
 }
 
 double Body::contact_pace(double speed) const noexcept {

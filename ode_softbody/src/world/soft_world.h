@@ -6,8 +6,8 @@
 #include "mesh/tet_mesh.h"
 #include "model/solid.h"
 #include "world/attachments.h"
-#include "world/basis_cabinet.h"
 #include "world/body.h"
+#include "world/cabinet.h"
 #include "world/observer.h"
 #include "world/other_spaces.h"
 #include "world/rigid_exchange.h"
@@ -105,7 +105,8 @@ public:
 
     Attachments& attachments() noexcept { return attachments_; }
 
-    BasisCabinet& basis_cabinet() noexcept { return bases_; }
+    Cabinet<ModalBasis>& bases() noexcept { return bases_; }
+    Cabinet<CubicTerms>& cubics() noexcept { return cubics_; }
 
     double last_step() const noexcept { return last_step_; } ///< [s]; 0 before the first
 
@@ -188,7 +189,8 @@ private:
     RigidExchange exchange_;
     Attachments attachments_;
     SoftExchange soft_exchange_;
-    BasisCabinet bases_;
+    Cabinet<ModalBasis> bases_;
+    Cabinet<CubicTerms> cubics_;
     bool any_rings_ = false;     ///< in this step
     bool nodes_watched_ = false; ///< by observers that take no modes
     Slumber slumber_;

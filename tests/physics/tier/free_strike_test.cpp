@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <numeric>
 
 namespace ode::soft {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 struct Struck {
     std::vector<double> signal; ///< of a node [m/s]
     Vec3 momentum, impulse = Vec3::Zero();
+    double bent = 0; ///< largest displacement over the thickness, in modes
 };
 
 /// The node that is farthest along a direction.
@@ -32,6 +34,8 @@ Struck strike(TierChoice tier, int order, double force, const Vec3& spin, double
     const auto heard = static_cast<std::size_t>(farthest(body.mesh(), {0, -1, 1}));
     const Vec3 inward =
         (body.center_of_mass() - body.mesh().node[static_cast<std::size_t>(rim)]).normalized();
+    std::vector<int> all(body.mesh().node.size());
+    std::iota(all.begin(), all.end(), 0);
     Struck out;
     for (double t = 0; t < time; t += h) {
         if (t < pulse) {
@@ -41,6 +45,10 @@ Struck strike(TierChoice tier, int order, double force, const Vec3& spin, double
             out.impulse += h * now;
         }
         run.step(h);
+        if (body.rings()) {
+            ModalMotion now = *body.modal_motion();
+            out.bent = std::max(out.bent, now.displacement_envelope(all) / 0.005);
+        }
         const Vec3 arm = body.state().position[heard] - body.center_of_mass();
         out.signal.push_back(
             (body.state().velocity[heard] - spin.cross(arm)).dot(Vec3(1, 2, 3).normalized()));
@@ -71,6 +79,34 @@ TEST_P(FreeStrike, InModesIsTheExplicitOne) {
     const double rounding = 1e-12 * modes.impulse.norm() + 1e-12 * c.spin.norm();
     EXPECT_LT((modes.momentum - modes.impulse).norm(), rounding);
 }
+
+struct CubicCase {
+    double force;  ///< [N]
+    double linear; ///< error of the linear tier is above
+    double cubic;  ///< below
+};
+
+class CubicStrike : public testing::TestWithParam<CubicCase> {};
+
+// Marks at 0.02, 0.1 and 0.25 thicknesses, on quadratic elements.
+TEST_P(CubicStrike, IsNearTheExplicitOne) {
+    const CubicCase& c = GetParam();
+    constexpr double kTime = 0.01;
+    const Struck nodes = strike(TierChoice::explicit_space, 2, c.force, Vec3::Zero(), kTime);
+    const Struck modes = strike(TierChoice::modes, 2, c.force, Vec3::Zero(), kTime);
+    const Struck cubic = strike(TierChoice::cubic, 2, c.force, Vec3::Zero(), kTime);
+    const double linear_error = relative_error(modes.signal, nodes.signal);
+    const double error = relative_error(cubic.signal, nodes.signal);
+    std::printf("%g N, %.3f thicknesses: waveform error linear %.2f %%, cubic %.3f %%\n", c.force,
+                modes.bent, 100 * linear_error, 100 * error);
+    EXPECT_GT(linear_error, c.linear);
+    EXPECT_LT(error, c.cubic);
+    EXPECT_LT((cubic.momentum - cubic.impulse).norm(), 1e-12 * cubic.impulse.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Amplitudes, CubicStrike,
+                         testing::Values(CubicCase{800, 0.004, 0.002}, CubicCase{4000, 0.02, 0.006},
+                                         CubicCase{10000, 0.05, 0.02}));
 
 INSTANTIATE_TEST_SUITE_P(Amplitudes, FreeStrike,
                          testing::Values(Case{1, 30, {0, 0, 0}, 0.001},

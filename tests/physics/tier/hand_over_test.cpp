@@ -20,8 +20,10 @@ void set_off(TierRun& run) {
         run.step(1e-5);
 }
 
-TEST(HandOver, FromModesToNodesKeepsMomentumAndEnergy) {
-    TierRun run(TierChoice::modes);
+class HandOverFrom : public testing::TestWithParam<TierChoice> {};
+
+TEST_P(HandOverFrom, ModesToNodesKeepsMomentumAndEnergy) {
+    TierRun run(GetParam());
     set_off(run);
     Body& body = run.body();
     ASSERT_TRUE(body.rings());
@@ -41,13 +43,18 @@ TEST(HandOver, FromModesToNodesKeepsMomentumAndEnergy) {
     EXPECT_LT((body.linear_momentum() - linear).norm(), 1e-10 * linear.norm());
 }
 
-TEST(HandOver, ThereAndBackKeepsModesAndMomentum) {
-    TierRun run(TierChoice::modes);
+TEST_P(HandOverFrom, ModesToNodesAndBackKeepsModesAndMomentum) {
+    TierRun run(GetParam());
     set_off(run);
     Body& body = run.body();
+    ASSERT_EQ(body.bends(), GetParam() == TierChoice::cubic);
     const ModalState before = body.modal_motion()->state();
     const double vibration = body.modal_motion()->vibration_energy();
     ModalMotion again(body.modal_motion()->shared_basis());
+    if (body.bends()) {
+        again.set_cubic(body.modal_motion()->cubic()->shared_terms());
+        again.use_cubic(true);
+    }
     again.take(body.state(), {});
     double off = 0;
     for (std::size_t k = 0; k < before.rate.size(); ++k)
@@ -57,6 +64,28 @@ TEST(HandOver, ThereAndBackKeepsModesAndMomentum) {
               1e-10 * before.spin_momentum.norm());
     EXPECT_LT((again.state().velocity - before.velocity).norm(), 1e-12);
     EXPECT_LT((again.state().center - before.center).norm(), 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tiers, HandOverFrom,
+                         testing::Values(TierChoice::modes, TierChoice::cubic));
+
+// From linear modes to what isn't linear of them and back: amplitudes stay, to the bit.
+TEST(HandOver, BetweenModalTiersKeepsAmplitudes) {
+    TierRun run(TierChoice::modes);
+    set_off(run);
+    Body& body = run.body();
+    const ModalState before = body.modal_motion()->state();
+    ModalMotion motion = *body.modal_motion();
+    run.body().set_tier(TierChoice::cubic);
+    run.step(1e-5); // finds the terms
+    ASSERT_TRUE(body.bends());
+    motion.set_cubic(body.modal_motion()->cubic()->shared_terms());
+    for (const bool on : {true, false}) {
+        motion.use_cubic(on);
+        EXPECT_EQ(motion.state().amplitude, before.amplitude);
+        EXPECT_EQ(motion.state().rate, before.rate);
+        EXPECT_EQ(motion.state().spin_momentum, before.spin_momentum);
+    }
 }
 
 // An app may ask for either at any moment.

@@ -52,9 +52,7 @@ struct Bowl {
                 static_cast<Index>(modes.mode_count())};
     }
     double omega2(std::size_t k) const { return eigenvalue_of(modes.frequency[k]); }
-    std::vector<double> mass() const {
-        return {model->mass().begin(), model->mass().end()};
-    }
+    std::vector<double> mass() const { return {model->mass().begin(), model->mass().end()}; }
 
     Solid solid;
     TetMesh mesh;
@@ -121,9 +119,9 @@ struct Condensed : testing::TestWithParam<std::tuple<int, bool, std::size_t>> {
         terms.follow({q.data(), kKept}, {still.data(), kKept}, place, speed, work);
         for (Index n = 0; n < u.size(); ++n)
             for (std::size_t s = 0; s < terms.following(); ++s)
-                u[n] += place[s] * static_cast<double>(
-                                       terms.shape()[static_cast<std::size_t>(n) * terms.columns() +
-                                                     s]);
+                u[n] += place[s] *
+                        static_cast<double>(
+                            terms.shape()[static_cast<std::size_t>(n) * terms.columns() + s]);
         return u;
     }
     VectorXd force(const VectorXd& amplitude) {
@@ -133,8 +131,7 @@ struct Condensed : testing::TestWithParam<std::tuple<int, bool, std::size_t>> {
     }
     double energy(const VectorXd& amplitude) {
         VectorXd out(amplitude.size());
-        return terms.evaluate({amplitude.data(), terms.moved()}, {out.data(), terms.moved()},
-                              work);
+        return terms.evaluate({amplitude.data(), terms.moved()}, {out.data(), terms.moved()}, work);
     }
 
     static constexpr std::size_t kKept = 6;
@@ -179,14 +176,14 @@ TEST_P(Condensed, ForceIsTheElementsAtTheCondensedDisplacement) {
         const VectorXd f = force(all);
         VectorXd r = driven_rest;
         for (Index m = 0; m < r.size(); ++m)
-            r[m] = f[static_cast<Index>(kKept) + m] /
-                   bowl.omega2(kKept + static_cast<std::size_t>(m));
+            r[m] =
+                f[static_cast<Index>(kKept) + m] / bowl.omega2(kKept + static_cast<std::size_t>(m));
         return r;
     };
     const auto elements = [&](double size) {
         const VectorXd q = size * direction;
-        VectorXd out =
-            bowl.phi().leftCols(kKept).transpose() * bowl.resistance(displacement(q, driven_at(size)));
+        VectorXd out = bowl.phi().leftCols(kKept).transpose() *
+                       bowl.resistance(displacement(q, driven_at(size)));
         for (std::size_t k = 0; k < kKept; ++k)
             out[static_cast<Index>(k)] -= bowl.omega2(k) * q[static_cast<Index>(k)];
         return out;
