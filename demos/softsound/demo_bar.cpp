@@ -56,7 +56,7 @@ void add_demo_bar(CLI::App& demo, Common& common) {
                        .title = "clamped aluminium bar, plucked at its free end",
                        .top = 5000,
                        .ring_from = 0.06,
-                       .choice = {"auto", "explicit", "modal"}};
+                       .choice = {"auto", "explicit", "modal", "cubic"}};
     add_exhibit(
         demo, common, e, "A clamped bar is plucked at its free end",
         "Mathematics: clamped-free bending, f_n = b_n^2 / (2 pi L^2) sqrt(E I / (rho A)),\n"

@@ -263,7 +263,7 @@ void add(CLI::App& demo, Common& common, const char* name, const char* material)
     bowl.add_option("--tier", options->tier,
                     "How the body moves: node by node, in its vibration modes, or in these while "
                     "the tolerance is kept")
-        ->check(CLI::IsMember({"auto", "explicit", "modal"}))
+        ->check(CLI::IsMember({"auto", "explicit", "modal", "cubic"}))
         ->capture_default_str();
     bowl.add_flag("--judge-elements", options->judges_elements,
                   "Also how far the elements are off in pitch");

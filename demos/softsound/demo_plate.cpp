@@ -73,7 +73,7 @@ void add(CLI::App& demo, Common& common, const char* name, const char* what, dou
                        .title = what,
                        .top = 4000,
                        .cells = kCells,
-                       .choice = {"auto", "explicit", "modal"}};
+                       .choice = {"auto", "explicit", "modal", "cubic"}};
     add_exhibit(
         demo, common, e, what,
         "Mathematics: clamped square plate, f = lambda / (2 pi a^2) sqrt(D / (rho h)), "

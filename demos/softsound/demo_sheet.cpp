@@ -112,7 +112,7 @@ void judge_soft(nlohmann::ordered_json& results, const Performance&, const Shown
 void add_demo_sheet(CLI::App& demo, Common& common) {
     const Exhibit stiff = {.stage = make_stage("sheet-stiff", 1.5, 1.0 / 480, {0, -0.5, 0.5}),
                            .title = "ball on a tilted sheet of steel",
-                           .choice = {"auto", "explicit", "modal"}};
+                           .choice = {"auto", "explicit", "modal", "cubic"}};
     add_exhibit(
         demo, common, stiff, "A ball bounces on a nearly rigid sheet and rolls off",
         "Mathematics: 300 x 300 x 3 mm of steel, held along two sides, tilted by 10 degrees; "

@@ -177,7 +177,7 @@ void add_demo_vibraphone(CLI::App& demo, Common& common) {
                        .tier = "modal",
                        .top = 5000,
                        .ring_from = 0.35,
-                       .choice = {"auto", "explicit", "modal"}};
+                       .choice = {"auto", "explicit", "modal", "cubic"}};
     add_exhibit(
         demo, common, e, "A vibraphone bar on soft supports is struck",
         "Mathematics: bending of a free bar, undercut to 1 : 4 : 10 at F#3 (185 Hz); boxes of "

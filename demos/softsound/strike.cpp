@@ -168,7 +168,7 @@ void add_strike(CLI::App& app, Common& common) {
         ->check(CLI::IsMember({1, 2}))
         ->capture_default_str();
     strike.add_option("--tier", e.tier, "How the body moves (tier.h)")
-        ->check(CLI::IsMember({"auto", "explicit", "modal"}))
+        ->check(CLI::IsMember({"auto", "explicit", "modal", "cubic"}))
         ->capture_default_str();
     add_common(strike, common);
     strike.footer("Leaves strike.wav, strike.png and, with --json, the partials heard beside the "

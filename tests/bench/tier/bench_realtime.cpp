@@ -79,7 +79,7 @@ void print_scene(const Scene& scene, int order, double share) {
     const Outcome nodes = run(closely, order, TierChoice::explicit_space, compared, modes.basis);
     std::printf("| %s | %d | explicit | %.3g | %.3g | reference |\n", scene.name, order, nodes.cpu,
                 1 / nodes.cpu);
-    for (const TierChoice tier : {TierChoice::modes, TierChoice::automatic}) {
+    for (const TierChoice tier : {TierChoice::modes, TierChoice::cubic, TierChoice::automatic}) {
         const Outcome like = run(closely, order, tier, compared, modes.basis);
         const Outcome timed =
             run(scene, order, tier,
