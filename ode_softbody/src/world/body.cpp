@@ -2,6 +2,7 @@
 
 #include "base/tasks.h"
 #include "collide/ray.h"
+#include "integrate/critical_step.h"
 #include "integrate/mass_damping.h"
 #include "world/soft_world.h"
 

@@ -11,9 +11,9 @@
 #include "mesh/surface.h"
 #include "mesh/tet_mesh.h"
 #include "modal/modal_damping.h"
-#include "model/damping.h"
 #include "model/elastic_model.h"
 #include "model/solid.h"
+#include "world/body_form.h"
 #include "world/energy_budget.h"
 #include "world/modal_tier.h"
 #include "world/rest_limits.h"
@@ -31,21 +31,6 @@ namespace ode::soft {
 
 class SoftWorld;
 struct ModalOptions;
-
-// Of the critical step, by default: room for what the bound at rest doesn't see, contact stiffness
-// (its share of the largest eigenvalue is limited to 0.15, which shrinks the step by 1/sqrt(1.15) =
-// 0.93) and strain.
-inline constexpr double kSubstepSafety = 0.9;
-
-/// What a body is solved as.
-struct BodyForm {
-    int order = 1;                                 ///< of its elements
-    std::string model = "stvk";                    ///< one of model_names()
-    bool curved = false;                           ///< curve_surface() on the promoted mesh
-    std::string integrator = "central-difference"; ///< one of integrator_kinds()
-    bool modal_damping = false;                    ///< ModalDamping instead of viscous stress
-    DampingTable damping_table; ///< unless empty: instead of the solids' damping; modal
-};
 
 /// A soft body: a meshed solid, its motion, its surface and its geom in ODE's space.
 /// Node arrays are world frame, in the mesh's order.

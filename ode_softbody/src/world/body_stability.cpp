@@ -1,5 +1,6 @@
 // How a body is watched while it is stepped, and what is done when it goes unstable.
 #include "base/error.h"
+#include "integrate/critical_step.h"
 #include "world/body.h"
 
 #include <algorithm>
