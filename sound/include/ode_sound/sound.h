@@ -209,12 +209,13 @@ DSOUND_API int dSoundListenerSetLimiter(dSoundListenerID listener, dReal ceiling
 
 /** Sends what the listener hears to a sink, besides those it has. One sink serves one listener. */
 DSOUND_API int dSoundListenerAddSink(dSoundListenerID listener, dSoundSinkID sink);
-/** Sends what several listeners of one world hear to one sink, side by side: its first channels are the
- * ears of listeners[0], the next those of listeners[1], and so on (two listeners of two ears, or four
- * of one: four channels). Like dSoundListenerAddSink() for each. Limiters delay each their own. A
- * listener that ends is silent, from up to a second later on what the others hear goes on without it.
- * @return 0, and nothing changed, after a message: a listener named twice or of another world, a sink
- * that serves a listener already or doesn't take as many channels (.flac 8, OpenAL 2). */
+/** Sends what several listeners of one world hear to one sink, side by side: its first channels are
+ * the ears of listeners[0], the next those of listeners[1], and so on (two listeners of two ears,
+ * or four of one: four channels). Like dSoundListenerAddSink() for each. Limiters delay each their
+ * own. A listener that ends is silent, from up to a second later on what the others hear goes on
+ * without it.
+ * @return 0, and nothing changed, after a message: a listener named twice or of another world, a
+ * sink that serves a listener already or doesn't take as many channels (.flac 8, OpenAL 2). */
 DSOUND_API int dSoundListenersAddSink(const dSoundListenerID* listeners, int count,
                                       dSoundSinkID sink);
 /** Like dSoundListenerAddSink(), in place of those it has. NULL leaves none. */
@@ -243,10 +244,10 @@ typedef struct dSoundFile {
     int bits; /**< of a sample: 32 (float, .wav only), 24 or 16 (dithered); 0 (default): 32 for
                  .wav, 24 for .flac */
     int note; /**< 1: JSON beside it, of the same name: unit, full scale, rate, events; default 0 */
-    unsigned speakers; /**< .wav: which loudspeaker each channel is meant for, as many bits as channels
-                          in WAVE_FORMAT_EXTENSIBLE's order (0x33: front left, front right, back left,
-                          back right); 0 (default): none, they are microphones. .flac of 1 to 8
-                          channels has its own order. */
+    unsigned speakers; /**< .wav: which loudspeaker each channel is meant for, as many bits as
+                          channels in WAVE_FORMAT_EXTENSIBLE's order (0x33: front left, front right,
+                          back left, back right); 0 (default): none, they are microphones. .flac of
+                          1 to 8 channels has its own order. */
 } dSoundFile;
 DSOUND_API dSoundFile dSoundFileDefault(void);
 /** dSoundSinkCreateFile() with a choice. */

@@ -11,8 +11,8 @@ namespace {
 
 // What alternates may do so up to 2; the rest is for rounding.
 constexpr double kAlternating = 2.002;
-// Beyond 1.12 of the critical step energy grows sevenfold a substep and more: each quotient waited for
-// costs as much. A single push makes one of up to 4, and then one below 2.
+// Beyond 1.12 of the critical step energy grows sevenfold a substep and more: each quotient waited
+// for costs as much. A single push makes one of up to 4, and then one below 2.
 constexpr double kFast = 3.0;
 // Pushes that set in grow in one direction, but not so fast for so long.
 constexpr double kSwelling = 6.0;
