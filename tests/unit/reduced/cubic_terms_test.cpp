@@ -196,8 +196,9 @@ TEST_P(Condensed, ForceIsTheElementsAtTheCondensedDisplacement) {
     const VectorXd expected = third(elements, 2e-5), got = third(polynomial, 10);
     std::printf("third degree %g, off by %.2g\n", expected.norm(),
                 (got - expected).norm() / expected.norm());
-    // Modes from Lanczos are orthogonal to what follows to some 1e-6 only (linear elements: 9e-7).
-    EXPECT_LT((got - expected).norm(), 1e-5 * expected.norm());
+    // Modes from Lanczos are orthogonal to what follows to some digits only: 1e-6 on linear
+    // elements, 3e-6 to 2e-5 on quadratic ones.
+    EXPECT_LT((got - expected).norm(), 3e-5 * expected.norm());
     const auto second = [&](auto answer) {
         const auto even = [&](double size) {
             return VectorXd((answer(size) + answer(-size)) / (2 * size * size));
