@@ -69,11 +69,10 @@ int dSoftBodyGetModalBasis(dSoftBodyID id, dSoftModalBasis* basis) {
     all.rest = own.rest.front().data();
     all.shape = own.shape.data();
     all.stride = static_cast<int>(own.columns);
-    if (body->bends()) {
-        const CubicTerms& terms = body->modal_motion()->cubic()->terms();
-        const CubicTerms::Sounding& sounding = terms.sounding();
+    if (const CubicTerms* terms = body->modal_motion()->cubic_terms()) {
+        const CubicTerms::Sounding& sounding = terms->sounding();
         all.mode_count = all.stride = static_cast<int>(sounding.order.size());
-        all.identity = &terms;
+        all.identity = terms;
         all.omega = sounding.omega.data();
         all.decay = sounding.decay.data();
         all.shape = sounding.shape.data();

@@ -59,11 +59,16 @@ std::optional<ModalMotion::Followers> ModalMotion::followers() const noexcept {
 }
 
 ModalMotion::Shown ModalMotion::shown() const noexcept {
-    if (!bends_)
+    if (!cubic_)
         return {state_.amplitude.data(), state_.rate.data(), basis_->audible};
-    find_following();
+    if (bends_) {
+        find_following();
+    } else {
+        std::fill(following_.place.begin(), following_.place.end(), 0.0);
+        std::fill(following_.speed.begin(), following_.speed.end(), 0.0);
+    }
     const std::span<const int> order = cubic_->terms().sounding().order;
-    const double lag = cubic_->lag();
+    const double lag = bends_ ? cubic_->lag() : 0;
     for (std::size_t c = 0; c < order.size(); ++c) {
         const auto k = static_cast<std::size_t>(order[c]);
         const bool follows = k >= basis_->audible;

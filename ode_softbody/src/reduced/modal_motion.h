@@ -44,6 +44,8 @@ public:
     /// What isn't linear, to be used from now on by use_cubic(true). Allocates.
     void set_cubic(std::shared_ptr<const CubicTerms> terms);
     bool has_cubic() const noexcept { return cubic_.has_value(); }
+    /// Of set_cubic(), used or not; nullptr: none.
+    const CubicTerms* cubic_terms() const noexcept { return cubic_ ? &cubic_->terms() : nullptr; }
     void use_cubic(bool on) noexcept;
     /// nullptr: it is linear at present.
     const CubicKicks* cubic() const noexcept { return bends_ ? &*cubic_ : nullptr; }
@@ -104,7 +106,8 @@ public:
     /// [1/kg].
     double inverse_mass(std::size_t node, const Vec3& direction) const noexcept;
 
-    /// Amplitudes and rates of what is heard, in the order of SoundingModes or of the basis; good
+    /// Amplitudes and rates of what is heard, in the order of cubic_terms()->sounding(), used or
+    /// not, so that a change between the two is none of what is shown; else of the basis. Good
     /// until the motion goes on.
     struct Shown {
         const double *amplitude, *rate;
