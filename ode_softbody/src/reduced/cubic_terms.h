@@ -51,6 +51,7 @@ public:
     std::size_t moved() const noexcept { return order_.modes + driven_; } ///< kept and driven
     std::size_t following() const noexcept { return follow_.size(); }     ///< shapes
     std::size_t columns() const noexcept { return columns_; } ///< following(), whole lanes
+    std::size_t entries() const noexcept { return coefficient_.size(); } ///< multiplied to look
 
     /// Scratch of one body.
     struct Work {
