@@ -200,7 +200,8 @@ TEST(RigidRing, ABallsClickIsASpheresThatIsPushed) {
     for (std::size_t i = 20; i + 20 < flow.size(); i += 20)
         expected.push_back((flow[i + 10] - flow[i - 10]) / (20 * fine));
     const double loudest = *std::max_element(expected.begin(), expected.end());
-    // The air that "monopole" lets a ball carry is a third short: 1.3 dB of the dipole.
+    // Heard 0.5 to 1.4 dB below it, of a cause that is not known: not the air that the ball
+    // carries, whose dipole is within 0.04 dB (tests/unit/source).
     EXPECT_NEAR(peak(p), loudest, 0.15 * loudest);
     const auto power = [](const std::vector<double>& of, double f) {
         std::complex<double> sum = 0;
