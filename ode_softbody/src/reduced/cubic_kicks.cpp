@@ -88,18 +88,6 @@ void CubicKicks::close(std::span<const double> amplitude, std::span<double> rate
     length_ = 0;
 }
 
-double CubicKicks::share(std::span<const double> amplitude, std::span<const double> rate) noexcept {
-    look(amplitude);
-    known_ = false; // it may be that of another moment
-    double pushed = 0, all = 0;
-    for (std::size_t k = 0; k < force_.size(); ++k) {
-        const double w = omega_[k];
-        pushed += force_[k] * force_[k] / (w * w);
-        all += w * w * amplitude[k] * amplitude[k] + rate[k] * rate[k];
-    }
-    return all > 0 ? std::sqrt(pushed / all) : 0;
-}
-
 void CubicKicks::keep() noexcept {
     std::copy(force_.begin(), force_.end(), kept_.force.begin());
     kept_.filter_length = filter_length_;

@@ -43,10 +43,6 @@ public:
     std::span<const double> force() const noexcept { return force_; } ///< when last looked at
 
     double energy() const noexcept { return energy_; } ///< when last looked at [J]
-    /// How much of the body's answer isn't linear: the ways that these forces would push each mode
-    /// from rest, against its amplitude, over all that are moved.
-    /// @param amplitude, rate  of the modes that the terms move
-    double share(std::span<const double> amplitude, std::span<const double> rate) noexcept;
 
     void keep() noexcept;
     void take_back() noexcept;

@@ -50,9 +50,6 @@ public:
     /// nullptr: it is linear at present.
     const CubicKicks* cubic() const noexcept { return bends_ ? &*cubic_ : nullptr; }
     CubicKicks* cubic() noexcept { return bends_ ? &*cubic_ : nullptr; }
-    /// How much of it isn't linear, whether that is used or not: CubicKicks::share(). With
-    /// set_cubic() only.
-    double cubic_share() noexcept { return cubic_->share(state_.amplitude, state_.rate); }
     /// Brings the rates to this moment, which within an interval of kicks they aren't.
     void level() noexcept;
 
