@@ -1,11 +1,10 @@
 // Several listeners in one file of several channels, through the public functions alone.
-#include "support/ode_app.h"
+#include "support/soft_app.h"
 #include "unit/sink/read_sound.h"
 #include "unit/sink/scratch.h"
 
 #include <ode_sound/sound.hpp>
 
-#include <cstdarg>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <string>
@@ -16,19 +15,9 @@ namespace {
 using namespace ode;
 using testing::HasSubstr;
 
-std::string told;
-
-void listen(int, const char* text, std::va_list arguments) {
-    char sentence[1024];
-    std::vsnprintf(sentence, sizeof sentence, text, arguments);
-    told += sentence;
-}
-
 /// A steel bar that strikes a floor, and three listeners: two ears, one, two.
 struct ManyEars : testing::Test {
     ManyEars() : soft(dSoftWorldCreate(app.world, app.space)) {
-        dSetMessageHandler(listen);
-        told.clear();
         dCreatePlane(app.space, 0, 0, 1, 0);
         soft::MeshHandle mesh(dSoftMeshCreateBox(0.2, 0.03, 0.02, 6, 1, 1));
         const dSoftSolid steel = dSoftSolidDefault();
@@ -42,13 +31,13 @@ struct ManyEars : testing::Test {
         }
         dSoundListenerSetEars(ears[1], 1);
     }
-    ~ManyEars() override { dSetMessageHandler(nullptr); }
 
     void run(int steps) {
         for (int i = 0; i < steps; ++i)
             app.step(1.0 / 480);
     }
 
+    const test::Messages messages;
     test::OdeApp app;
     soft::WorldHandle soft;
     sound::WorldHandle world;
@@ -63,11 +52,11 @@ TEST_F(ManyEars, OneFileHoldsWhatEachHears) {
         ASSERT_EQ(dSoundListenerAddSink(listener, own.back()), 1);
     }
     sound::SinkHandle file(dSoundSinkCreateFile(scratch.file("five.wav").c_str()));
-    ASSERT_EQ(dSoundListenersAddSink(ears.data(), 3, file), 1) << told;
+    ASSERT_EQ(dSoundListenersAddSink(ears.data(), 3, file), 1) << test::Messages::text();
     run(12);
     world.reset();
     file.reset();
-    EXPECT_EQ(told, "");
+    EXPECT_EQ(test::Messages::text(), "");
     const sound::test::ReadSound read(scratch.file("five.wav"));
     ASSERT_EQ(read.info.channels, 5);
     std::size_t at = 0;
@@ -91,7 +80,7 @@ TEST_F(ManyEars, OneFileHoldsWhatEachHears) {
 
 TEST_F(ManyEars, WhoeverEndsIsSilentAndTheOthersGoOn) {
     sound::SinkHandle memory(dSoundSinkCreateMemory());
-    ASSERT_EQ(dSoundListenersAddSink(ears.data(), 2, memory), 1) << told;
+    ASSERT_EQ(dSoundListenersAddSink(ears.data(), 2, memory), 1) << test::Messages::text();
     run(4);
     dSoundListenerDestroy(ears[0]);
     run(600); // more than a second
@@ -101,25 +90,25 @@ TEST_F(ManyEars, WhoeverEndsIsSilentAndTheOthersGoOn) {
     EXPECT_EQ(channels, 3);
     memory.reset(); // before the listener that has it
     run(1);
-    EXPECT_EQ(told, "");
+    EXPECT_EQ(test::Messages::text(), "");
 }
 
 TEST_F(ManyEars, WhatCannotBeIsRefusedInWords) {
     sound::SinkHandle memory(dSoundSinkCreateMemory());
     const dSoundListenerID twice[] = {ears[0], ears[1], ears[0]};
     EXPECT_EQ(dSoundListenersAddSink(twice, 3, memory), 0);
-    EXPECT_THAT(told, HasSubstr("listener 2 is named twice"));
-    told.clear();
+    EXPECT_THAT(test::Messages::text(), HasSubstr("listener 2 is named twice"));
+    test::Messages::all().clear();
     EXPECT_EQ(dSoundListenersAddSink(ears.data(), 0, memory), 0);
-    EXPECT_THAT(told, HasSubstr("count is 0"));
-    told.clear();
+    EXPECT_THAT(test::Messages::text(), HasSubstr("count is 0"));
+    test::Messages::all().clear();
     ASSERT_EQ(dSoundListenersAddSink(ears.data(), 3, memory), 1);
     EXPECT_EQ(dSoundListenerAddSink(ears[0], memory), 0);
-    EXPECT_THAT(told, HasSubstr("serves another listener"));
-    told.clear();
+    EXPECT_THAT(test::Messages::text(), HasSubstr("serves another listener"));
+    test::Messages::all().clear();
     EXPECT_EQ(dSoundListenersAddSink(ears.data(), 2, memory), 0);
-    EXPECT_THAT(told, HasSubstr("serves another listener"));
-    told.clear();
+    EXPECT_THAT(test::Messages::text(), HasSubstr("serves another listener"));
+    test::Messages::all().clear();
     std::vector<dSoundListenerID> nine;
     for (int i = 0; i < 9; ++i) {
         nine.push_back(dSoundListenerCreate(world));
@@ -127,9 +116,9 @@ TEST_F(ManyEars, WhatCannotBeIsRefusedInWords) {
     }
     sound::SinkHandle flac(dSoundSinkCreateFile(scratch.file("nine.flac").c_str()));
     EXPECT_EQ(dSoundListenersAddSink(nine.data(), 9, flac), 0);
-    EXPECT_THAT(told, HasSubstr("1 to 8 channels, not 9"));
-    told.clear();
-    EXPECT_EQ(dSoundListenersAddSink(nine.data(), 8, flac), 1) << told;
+    EXPECT_THAT(test::Messages::text(), HasSubstr("1 to 8 channels, not 9"));
+    test::Messages::all().clear();
+    EXPECT_EQ(dSoundListenersAddSink(nine.data(), 8, flac), 1) << test::Messages::text();
     run(2);
     flac.reset();
     EXPECT_EQ(sound::test::ReadSound(scratch.file("nine.flac")).info.channels, 8);
@@ -137,7 +126,7 @@ TEST_F(ManyEars, WhatCannotBeIsRefusedInWords) {
     quad.speakers = 0x33;
     sound::SinkHandle wav(dSoundSinkCreateFileAs(scratch.file("quad.wav").c_str(), &quad));
     EXPECT_EQ(dSoundListenersAddSink(nine.data(), 3, wav), 0);
-    EXPECT_THAT(told, HasSubstr("4 loudspeakers for 3 channels"));
+    EXPECT_THAT(test::Messages::text(), HasSubstr("4 loudspeakers for 3 channels"));
     EXPECT_EQ(dSoundListenersAddSink(nine.data(), 4, wav), 1);
 }
 

@@ -66,6 +66,25 @@ TEST_F(Tier, MayBeCubic) {
     EXPECT_GT(status.kept, 0);
 }
 
+// A steel die rings far above hearing.
+TEST(TierOfADie, IsExplicitAndSaysWhy) {
+    for (const char* tier : {"modal", "cubic"}) {
+        const Messages messages;
+        OdeApp app;
+        const WorldHandle world(dSoftWorldCreate(app.world, app.space));
+        const MeshHandle mesh(dSoftMeshCreateBox(0.01, 0.01, 0.01, 2, 2, 2));
+        const dSoftSolid steel = dSoftSolidDefault();
+        const dSoftBodyID body = dSoftBodyCreate(world, mesh, &steel);
+        ASSERT_TRUE(dSoftBodySetTier(body, tier));
+        app.step(1e-4);
+        EXPECT_EQ(Messages::with("no vibration mode below 22 kHz"), 1) << Messages::text();
+        dSoftTierStatus status = {};
+        status.struct_size = sizeof status;
+        ASSERT_TRUE(dSoftBodyGetTierStatus(body, &status));
+        EXPECT_STREQ(status.tier, "explicit");
+    }
+}
+
 TEST_F(Tier, RefusesAToleranceThatIsNone) {
     Messages messages;
     for (const dReal bad : {0.0, -0.1, 1.5, std::nan("")})

@@ -96,7 +96,7 @@ std::shared_ptr<const ModalBasis> Body::find_basis() noexcept {
             return basis;
         });
     } catch (const std::exception& e) {
-        if (tier_choice_ == TierChoice::modes)
+        if (tier_choice_ != TierChoice::automatic)
             report(format("a soft body of %zu nodes stays in the explicit tier: %s",
                           mesh_.node.size(), e.what()));
         return nullptr;
