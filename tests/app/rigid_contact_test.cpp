@@ -149,7 +149,8 @@ TEST(RigidContact, RollsAtSpeedOverWavelength) {
     const double felt = std::sin(std::numbers::pi * wide / 4e-4) / (std::numbers::pi * wide / 4e-4);
     const double expected =
         felt * 1.21 * std::pow(kRadius, 3) / 2 * w * shaken / (343 * (1 - kRadius));
-    EXPECT_NEAR(hum, expected, 0.2 * expected) << "a ball shaken at the waves' rate";
+    std::printf("rolls at 1 kHz: %+.2f dB\n", 20 * std::log10(hum / expected));
+    EXPECT_NEAR(hum, expected, 0.08 * expected) << "a ball shaken at the waves' rate";
     for (const double f : {600., 800., 1250., 1500.})
         EXPECT_LT(line(p, f, 0.1, 0.34), 0.02 * hum) << f;
     const std::vector<double> level = rolled(0.4, 0);

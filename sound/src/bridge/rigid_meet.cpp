@@ -156,7 +156,7 @@ void RigidBodies::fall(const RigidTouch& touch, RigidBody* const side[2], const 
         constexpr double kHeard = 0.01;
         const std::vector<double>& omega = side[i]->model->omega;
         const double slowest = omega.empty() ? kHearing : std::min(omega.front(), kHearing);
-        any = any || pulse_spectrum(slowest * duration) > kHeard;
+        any = any || std::fabs(pulse_spectrum(slowest * duration).value) > kHeard;
     }
     if (!any)
         return;
@@ -236,7 +236,7 @@ void RigidBodies::deal(Scene& scene, RigidModels& models) {
     for (const RigidBody* side : stroke_.side)
         for (std::size_t k = 0; side && k < side->push.size(); ++k) {
             const double speed = static_cast<double>(side->push[k]) *
-                                 pulse_spectrum(side->model->omega[k] * stroke_.duration);
+                                 pulse_spectrum(side->model->omega[k] * stroke_.duration).value;
             taken += 0.5 * speed * speed;
         }
     const double share = taken > stroke_.energy ? std::sqrt(stroke_.energy / taken) : 1.0;

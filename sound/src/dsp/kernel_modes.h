@@ -11,11 +11,11 @@ using LooseFloats [[gnu::vector_size(4 * kFloats), gnu::aligned(4), gnu::may_ali
 inline Floats load_floats(const float* p) { return *reinterpret_cast<const LooseFloats*>(p); }
 inline void store_floats(float* p, const Floats& v) { *reinterpret_cast<LooseFloats*>(p) = v; }
 
-/// kGroups registers of oscillators at a time: each waits for itself, several fill the wait. Pushed
-/// ones find in v_rows, and in q_rows those of the first kModeLanes, what they are given.
+/// kGroups registers of oscillators at a time: each waits for itself, several fill the wait.
+/// @param push  those that reach these columns.
 template <int kGroups, bool kPushed>
 inline void ring_groups(int columns, int samples, const float* step, int stride, float* q, float* v,
-                        float* q_rows, float* v_rows, int first) {
+                        float* q_rows, float* v_rows, const RingPush* push, int pushes) {
     Floats a[kGroups], b[kGroups], c[kGroups], d[kGroups], x[kGroups], y[kGroups];
     for (int g = 0; g < kGroups; ++g) {
         a[g] = load_floats(step + g * kFloats);
@@ -25,19 +25,30 @@ inline void ring_groups(int columns, int samples, const float* step, int stride,
         x[g] = load_floats(q + g * kFloats);
         y[g] = load_floats(v + g * kFloats);
     }
-    for (int s = 0; s < samples; ++s)
+    for (int s = 0; s < samples; ++s) {
         for (int g = 0; g < kGroups; ++g) {
             const Floats next = x[g] + (a[g] * x[g] + b[g] * y[g]);
             y[g] = y[g] + (c[g] * x[g] + d[g] * y[g]);
             x[g] = next;
-            if constexpr (kPushed) {
-                y[g] += load_floats(v_rows + s * columns + g * kFloats);
-                if (first + g * kFloats < kModeLanes)
-                    x[g] += load_floats(q_rows + s * columns + g * kFloats);
+        }
+        if constexpr (kPushed)
+            for (int p = 0; p < pushes; ++p) {
+                const RingPush& own = push[p];
+                if (s < own.begin || s >= own.end)
+                    continue;
+                const float share = own.series[s];
+                for (int g = 0; g < kGroups; ++g)
+                    if (g * kFloats < own.columns) {
+                        y[g] += share * load_floats(own.v + g * kFloats);
+                        if (own.q)
+                            x[g] += share * load_floats(own.q + g * kFloats);
+                    }
             }
+        for (int g = 0; g < kGroups; ++g) {
             store_floats(q_rows + s * columns + g * kFloats, x[g]);
             store_floats(v_rows + s * columns + g * kFloats, y[g]);
         }
+    }
     for (int g = 0; g < kGroups; ++g) {
         store_floats(q + g * kFloats, x[g]);
         store_floats(v + g * kFloats, y[g]);
@@ -46,7 +57,7 @@ inline void ring_groups(int columns, int samples, const float* step, int stride,
 
 template <bool kPushed>
 inline void ring_all(int columns, int samples, const float* step, int stride, float* q, float* v,
-                     float* q_rows, float* v_rows) {
+                     float* q_rows, float* v_rows, const RingPush* push, int pushes) {
 #if defined(__AVX512F__)
     constexpr int kMost = 4; // 24 of 32 registers
 #else
@@ -54,8 +65,27 @@ inline void ring_all(int columns, int samples, const float* step, int stride, fl
 #endif
     int k = 0;
     const auto next = [&](auto groups) {
-        ring_groups<groups, kPushed>(columns, samples, step + k, stride, q + k, v + k, q_rows + k,
-                                     v_rows + k, k);
+        const auto run = [&](auto pushed, const RingPush* own, int count) {
+            ring_groups<groups, pushed>(columns, samples, step + k, stride, q + k, v + k,
+                                        q_rows + k, v_rows + k, own, count);
+        };
+        if constexpr (kPushed) {
+            RingPush own[kMostPushes];
+            int count = 0;
+            for (int p = 0; p < pushes; ++p) {
+                if (push[p].columns <= k)
+                    continue;
+                own[count] = push[p];
+                own[count].columns -= k;
+                own[count].v += k;
+                if (own[count].q)
+                    own[count].q += k;
+                ++count;
+            }
+            run(std::true_type(), own, count);
+        } else {
+            run(std::false_type(), nullptr, 0);
+        }
         k += groups * kFloats;
     };
     while (k + kMost * kFloats <= columns)
@@ -70,35 +100,14 @@ inline void ring_all(int columns, int samples, const float* step, int stride, fl
         next(std::integral_constant<int, 1>());
 }
 
-/// rows[s] += series[s] given, from `begin` to `end`.
-inline void give(int columns, const RingPush& push, const float* given, int width, float* rows) {
-    for (int k = 0; k < width; k += kFloats) {
-        const Floats all = load_floats(given + k);
-        float* row = rows + push.begin * columns + k;
-        for (int s = push.begin; s < push.end; ++s, row += columns)
-            store_floats(row, load_floats(row) + push.series[s] * all);
-    }
-}
-
 void ring(int columns, int samples, const float* step, int stride, float* q, float* v,
           float* q_rows, float* v_rows) {
-    ring_all<false>(columns, samples, step, stride, q, v, q_rows, v_rows);
+    ring_all<false>(columns, samples, step, stride, q, v, q_rows, v_rows, nullptr, 0);
 }
 
 void ring_pushed(int columns, int samples, const float* step, int stride, float* q, float* v,
                  float* q_rows, float* v_rows, const RingPush* push, int pushes) {
-    for (int k = 0; k < samples * columns; k += kFloats)
-        store_floats(v_rows + k, Floats{});
-    for (int s = 0; s < samples; ++s)
-        for (int k = 0; k < kModeLanes; k += kFloats)
-            store_floats(q_rows + s * columns + k, Floats{});
-    for (int p = 0; p < pushes; ++p) {
-        give(columns, push[p], push[p].v, push[p].columns < columns ? push[p].columns : columns,
-             v_rows);
-        if (push[p].q)
-            give(columns, push[p], push[p].q, kModeLanes, q_rows);
-    }
-    ring_all<true>(columns, samples, step, stride, q, v, q_rows, v_rows);
+    ring_all<true>(columns, samples, step, stride, q, v, q_rows, v_rows, push, pushes);
 }
 
 /// Sum of all lanes, by halves.

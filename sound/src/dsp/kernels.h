@@ -46,7 +46,7 @@ struct SplatSurface {
 
 /// One point at successive samples, on its way to one ear.
 struct SpreadRun {
-    static constexpr int kMost = 32; ///< samples
+    static constexpr int kMost = 48; ///< samples
     int samples;
     int every; ///< cells of the ring from one sample to the next
     const float* value;
@@ -60,11 +60,13 @@ constexpr int kModeLanes = 16;
 /// What pushes oscillators while they swing.
 struct RingPush {
     const float* series; ///< share of it in each sample
-    const float* q;      ///< what all of it gives q of the first kModeLanes; null: nothing
+    const float* q;      ///< what all of it gives q; null: nothing
     const float* v;      ///< and q'
     int columns;         ///< those after are not pushed; whole numbers of kModeLanes
     int begin, end;      ///< samples in which the share is not zero
 };
+
+constexpr int kMostPushes = 136;
 
 struct Kernels {
     const char* name;
@@ -107,7 +109,7 @@ struct Kernels {
     void (*ring)(int columns, int samples, const float* step, int stride, float* q, float* v,
                  float* q_rows, float* v_rows);
 
-    /// The same while they are pushed, after each sample's step.
+    /// The same while they are pushed, after each sample's step; by kMostPushes at most.
     void (*ring_pushed)(int columns, int samples, const float* step, int stride, float* q, float* v,
                         float* q_rows, float* v_rows, const RingPush* push, int pushes);
 

@@ -66,12 +66,19 @@ struct ClickColumns {
     double radius = 0.0;             ///< of the sphere that the body is likened to [m]
     double speed = 343.0;            ///< of sound [m/s]
     double omega = 0.0, decay = 0.0; ///< of W [rad/s], [1/s]
+    /// What a blow of 1 gives W, W' and U that is spread over a sample, half of it before: at the
+    /// sample, and beside what goes on from there at the next. Told at once, what the air makes of
+    /// it would be sampled where it changes within one, and the sum of samples isn't the integral.
+    struct Hold {
+        double q = 0.0, v = 0.0, u = 0.0;
+    };
+    Hold hold[2];
 };
 
 /// A struck body at successive samples of the grid. Borrowed. What is the same for all samples of a
 /// run is worked out once.
 struct ModalRun {
-    static constexpr int kMost = 32; ///< samples
+    static constexpr int kMost = 48; ///< samples
     std::int64_t sample;             ///< the first, on the grid
     int samples;
     int columns;                   ///< of the rows: modes, and silent ones up to kModeLanes

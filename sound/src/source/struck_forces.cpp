@@ -1,9 +1,11 @@
 // What acts on a struck body: blows, forces that last, and what damps it.
 #include "source/struck_voice.h"
 
+#include "strike/pulse.h"
+#include "transfer/wave.h"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace ode::sound {
@@ -11,41 +13,61 @@ namespace {
 
 constexpr std::size_t kClick = ClickColumns::kCount;
 
-/// What a change of the body's velocity gives the click's columns: U jumps, V and V' don't.
-struct Jolt {
-    std::array<double, kClick> q{}, v{};
-
-    Jolt(const StruckVoiceModel& model, const RigidSound::Six& jerk) noexcept {
-        const Vec3 all = model.rigid.dipole * jerk;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const double own = all[static_cast<int>(i)];
-            q[i] = -model.click.share * own;
-            v[i] = model.click.share * model.click.forget * own;
-            q[3 + i] = own;
-        }
-    }
-    void put(std::span<float> click, std::span<float> rate) const noexcept {
-        for (std::size_t i = 0; i < kClick; ++i) {
-            click[i] = static_cast<float>(q[i]);
-            rate[i] = static_cast<float>(v[i]);
-        }
-    }
-};
-
 } // namespace
 
-bool StruckVoice::carries(double omega) const noexcept {
-    return omega < 0.98 * std::numbers::pi * rate_;
-}
-
 void StruckVoice::give_rest(const Pulse& pulse) noexcept {
-    const auto rest = static_cast<float>(1.0 - pulse.given);
-    const auto click_rest = static_cast<float>(1.0 - pulse.click_given);
+    const auto rest = static_cast<float>(pulse.modes.rest(done_ + 1));
+    const auto click_rest = static_cast<float>(pulse.click.rest(done_ + 1));
     for (std::size_t k = 0; k < pulse.push.size(); ++k)
         rate_of_[k] += rest * pulse.push[k];
-    for (std::size_t k = 0; k < kClick; ++k) {
-        amplitude_[k] += click_rest * pulse.click[k];
-        rate_of_[k] += click_rest * pulse.click_rate[k];
+    for (std::size_t i = 0; i < 3; ++i)
+        for (const ClickColumns::Hold& hold : model_->click.hold) {
+            const float own = click_rest * static_cast<float>(pulse.jolt[static_cast<int>(i)]);
+            amplitude_[i] += static_cast<float>(hold.q) * own;
+            rate_of_[i] += static_cast<float>(hold.v) * own;
+            amplitude_[3 + i] += static_cast<float>(hold.u) * own;
+        }
+}
+
+/// What the samples of a short pulse have given each mode at their last, against what the pulse
+/// has: its spectrum at the mode's frequency, come at mid-time, gone on to that sample.
+void StruckVoice::mend(const Pulse& pulse, float* mend_q, float* mend_v) const noexcept {
+    const StruckVoiceModel& model = *model_;
+    const std::size_t n = model.omega.size(), all = model.columns;
+    float series[2 * static_cast<std::size_t>(SampledPulse::kShort)];
+    const auto samples = static_cast<int>(pulse.modes.end() - pulse.modes.first());
+    pulse.modes.read(pulse.modes.first(), samples, series);
+    float *const q = mend_q + kClick, *const v = mend_v + kClick;
+    const float *const step = model.step.data() + kClick, *const push = pulse.push.data() + kClick;
+    std::fill_n(q, n, 0.0f);
+    std::fill_n(v, n, 0.0f);
+    for (int s = 0; s < samples; ++s)
+        for (std::size_t k = 0; k < n; ++k) {
+            const float x = q[k], y = v[k];
+            q[k] = x + (step[k] * x + step[all + k] * y);
+            v[k] = y + (step[2 * all + k] * x + step[3 * all + k] * y) + series[s] * push[k];
+        }
+    const double passed =
+        (static_cast<double>(pulse.modes.end() - 1) - pulse.modes.middle()) / rate_;
+    const double duration = pulse.modes.duration() / rate_;
+    for (std::size_t k = 0; k < n; ++k)
+        model.angle[k] = model.damped[k] * passed;
+    turn(model.angle.data(), static_cast<int>(n), model.cosine.data(), model.sine.data());
+    for (std::size_t k = 0; k < n; ++k) {
+        const double w = model.damped[k], d = model.decay[k];
+        if (!(w > 0.0) || model.sharpen[k] == 0.0f) {
+            q[k] = v[k] = 0.0f;
+            continue;
+        }
+        // The spectrum at a complex frequency, to the first order of what decays meanwhile.
+        const PulseSpectrum spectrum = pulse_spectrum(w * duration);
+        const double real = spectrum.value, imag = d * duration * spectrum.slope;
+        const double size = std::exp(-d * passed) * static_cast<double>(push[k]) /
+                            static_cast<double>(model.sharpen[k]);
+        const double c = size * (model.cosine[k] * real - model.sine[k] * imag);
+        const double s = size * (model.sine[k] * real + model.cosine[k] * imag);
+        q[k] = static_cast<float>(s / w - static_cast<double>(q[k]));
+        v[k] = static_cast<float>(c - d / w * s - static_cast<double>(v[k]));
     }
 }
 
@@ -58,17 +80,16 @@ void StruckVoice::strike(double time, double duration, std::span<const float> pu
         --pulses_;
     }
     Pulse& made = pulse_[pulses_++];
-    made.begin = time;
-    made.duration = duration;
-    made.given = made.click_given = 0.0;
-    Jolt(*model_, jerk).put(made.click, made.click_rate);
+    using Window = SampledPulse::Window;
+    made.modes.aim((time + lead_) * rate_, duration * rate_, Window::kSmooth);
+    made.click.aim(time * rate_, duration * rate_, Window::kFlat);
+    made.modes.hurry(done_ + 1);
+    made.click.hurry(done_ + 1);
+    made.jolt = model_->rigid.dipole * jerk;
+    const bool smoothed = made.modes.is_short();
     for (std::size_t k = 0; k < model_->omega.size(); ++k) {
-        const double half = 0.5 * model_->omega[k] / rate_;
-        // What the rate can't carry is left out.
-        made.push[kClick + k] =
-            half < 0.49 * std::numbers::pi
-                ? static_cast<float>(static_cast<double>(push[k]) * half / std::sin(half))
-                : 0.0f;
+        const float sharpen = model_->sharpen[k];
+        made.push[kClick + k] = smoothed ? sharpen * push[k] : sharpen > 0.0f ? push[k] : 0.0f;
     }
     active_ = model_->columns;
 }
@@ -81,8 +102,8 @@ void StruckVoice::drive(std::int64_t begin, std::span<const float> series,
     made.begin = begin;
     made.series = series;
     for (std::size_t k = 0; k < push.size(); ++k)
-        made.push[kClick + k] = carries(model_->omega[k]) ? push[k] : 0.0f;
-    Jolt(*model_, jerk).put(made.click, made.push);
+        made.push[kClick + k] = model_->sharpen[k] > 0.0f ? push[k] : 0.0f;
+    made.jolt = model_->rigid.dipole * jerk;
     active_ = model_->columns;
 }
 
@@ -101,10 +122,17 @@ void StruckVoice::push(double time, std::span<const double> push, const RigidSou
                                                std::vector<double>(model_->omega.size())});
     }
     for (std::size_t k = 0; k < push.size(); ++k)
-        kicks_->push[k] = carries(model_->omega[k]) ? push[k] : 0.0;
+        kicks_->push[k] = model_->sharpen[k] > 0.0f ? push[k] : 0.0;
     kicks_->modes.add(time + lead_, nullptr, kicks_->push.data());
-    const Jolt jolt(*model_, jerk);
-    kicks_->click.add(time, jolt.q.data(), jolt.v.data());
+    // U jumps, V and V' don't.
+    const Vec3 all = model_->rigid.dipole * jerk;
+    double q[kClick] = {}, v[kClick] = {};
+    for (std::size_t i = 0; i < 3; ++i) {
+        q[3 + i] = all[static_cast<int>(i)];
+        q[i] = -model_->click.share * q[3 + i];
+        v[i] = model_->click.share * model_->click.forget * q[3 + i];
+    }
+    kicks_->click.add(time, q, v);
     active_ = model_->columns;
 }
 

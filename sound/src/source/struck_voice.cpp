@@ -1,7 +1,5 @@
 #include "source/struck_voice.h"
 
-#include "strike/pulse.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -34,6 +32,28 @@ Eigen::Quaterniond between(const Eigen::Quaterniond& from, const Eigen::Quaterni
     return out;
 }
 
+/// ClickColumns::hold: integrals over half a sample each of how W, W' and U go on from a blow of 1.
+void find_holds(ClickColumns& click, double sample) {
+    const double w = click.omega, d = click.decay, damped = std::sqrt((w - d) * (w + d));
+    const double q = -click.share, v = click.share * click.forget;
+    constexpr int kParts = 64;
+    for (int half = 0; half < 2; ++half) {
+        ClickColumns::Hold& out = click.hold[half];
+        out = {};
+        for (int i = 0; i < kParts; ++i) {
+            const double u = 0.5 * (half + (i + 0.5) / kParts), t = u * sample;
+            const double c = std::exp(-d * t) * std::cos(damped * t);
+            const double s = std::exp(-d * t) * std::sin(damped * t) / damped;
+            out.q += 0.5 / kParts * (c * q + s * (d * q + v));
+            out.v += 0.5 / kParts * (c * v - s * (w * w * q + d * v));
+            out.u += 0.5 / kParts * std::exp(-click.forget * t);
+        }
+    }
+}
+
+/// Whether the rate [Hz] carries a frequency [rad/s].
+bool carried(double omega, double rate) noexcept { return omega < 0.98 * std::numbers::pi * rate; }
+
 } // namespace
 
 void find_steps(StruckVoiceModel& model, double rate) {
@@ -62,13 +82,26 @@ void find_steps(StruckVoiceModel& model, double rate) {
                    model.rigid.radius,
                    model.rigid.speed,
                    std::numbers::sqrt2 / T,
-                   1.0 / T};
+                   1.0 / T,
+                   {}};
+    find_holds(model.click, t);
     for (std::size_t i = 0; i < 3; ++i) {
         column(i, model.click.omega, model.click.decay);
         model.step[3 + i] = static_cast<float>(std::expm1(-forget * t));
     }
     for (std::size_t k = 0; k < n; ++k)
         column(kClick + k, model.omega[k], model.decay[k]);
+    model.damped.clear();
+    model.sharpen.clear();
+    for (std::size_t k = 0; k < n; ++k) {
+        const double w = model.omega[k], d = model.decay[k];
+        model.damped.push_back(std::sqrt(std::max(0.0, (w - d) * (w + d))));
+        model.sharpen.push_back(
+            carried(w, rate) ? static_cast<float>(1.0 / SampledPulse::smoothing(w * t)) : 0.0f);
+    }
+    for (std::vector<double>* row : {&model.angle, &model.cosine, &model.sine})
+        row->assign(n, 0.0);
+    model.mend_rows.assign(2 * StruckVoice::kMostPulses * all, 0.0f);
     model.amplitude_rows.assign(ModalRun::kMost * all, 0.0f);
     model.rate_rows.assign(ModalRun::kMost * all, 0.0f);
 }
@@ -82,99 +115,6 @@ StruckVoice::StruckVoice(std::shared_ptr<const StruckVoiceModel> model, double r
     for (Drive& drive : drive_)
         drive.push.assign(model_->columns, 0.0f);
     damped_step_ = model_->step;
-}
-
-void StruckVoice::ring(std::int64_t first, int samples) noexcept {
-    float* const q_rows = model_->amplitude_rows.data();
-    float* const v_rows = model_->rate_rows.data();
-    const auto columns = static_cast<int>(active_), stride = static_cast<int>(model_->columns);
-    float series[2 * kMostPulses + kMostDrives][ModalRun::kMost];
-    RingPush push[2 * kMostPulses + kMostDrives], whole[2 * kMostPulses + kMostDrives];
-    int pushes = 0;
-    for (std::size_t p = 0; p < pulses_; ++p) {
-        Pulse& pulse = pulse_[p];
-        const double per_duration = 1.0 / pulse.duration;
-        const auto follow = [&](double late, double& given, const float* q, const float* v,
-                                int pushed) {
-            const double u =
-                ((static_cast<double>(first) + 0.5) / rate_ - late - pulse.begin) * per_duration;
-            const double step = per_duration / rate_;
-            if (given == 1.0 || u + samples * step <= 0.0)
-                return;
-            double share[ModalRun::kMost];
-            pulse_shares(u, step, samples, share);
-            RingPush& own = push[pushes] = {series[pushes], q, v, pushed, samples, 0};
-            for (int i = 0; i < samples; ++i) {
-                if (share[i] == given) {
-                    series[pushes][i] = 0.0f;
-                    continue;
-                }
-                own.begin = std::min(own.begin, i);
-                own.end = i + 1;
-                series[pushes][i] = static_cast<float>(share[i] - given);
-                given = share[i];
-            }
-            pushes += own.begin < own.end;
-        };
-        follow(lead_, pulse.given, nullptr, pulse.push.data(), columns);
-        follow(0.0, pulse.click_given, pulse.click.data(), pulse.click_rate.data(), kModeLanes);
-    }
-    int rows = pushes;
-    for (std::size_t d = 0; d < drives_; ++d) {
-        const Drive& drive = drive_[d];
-        float* const row = series[rows++];
-        for (int i = 0; i < samples; ++i) {
-            const auto at = static_cast<std::size_t>(first + i - drive.begin - 1);
-            row[i] = at < drive.series.size() ? drive.series[at] : 0.0f;
-        }
-        push[pushes++] = {row, drive.click.data(), drive.push.data(), columns, 0, samples};
-    }
-    const float* const step = damped_ ? damped_step_.data() : model_->step.data();
-    // From kick to kick.
-    for (int done = 0; done < samples;) {
-        const std::int64_t kick = kicks_ ? kicks_->next() : INT64_MAX;
-        const int upto = static_cast<int>(std::clamp<std::int64_t>(
-            kick - first + 1, done + 1, static_cast<std::int64_t>(samples)));
-        float *const q = q_rows + done * columns, *const v = v_rows + done * columns;
-        for (int p = 0; p < pushes && done == 0 && upto < samples; ++p)
-            whole[p] = push[p];
-        for (int p = 0; p < pushes && upto - done < samples; ++p) { // the part of each
-            push[p] = whole[p];
-            push[p].series += done;
-            push[p].begin = std::max(0, push[p].begin - done);
-            push[p].end = std::min(upto, push[p].end) - done;
-        }
-        if (pushes > 0)
-            kernels().ring_pushed(columns, upto - done, step, stride, amplitude_.data(),
-                                  rate_of_.data(), q, v, push, pushes);
-        else
-            kernels().ring(columns, upto - done, step, stride, amplitude_.data(), rate_of_.data(),
-                           q, v);
-        done = upto;
-        if (kick <= first + done - 1)
-            take_kicks(first + done - 1, q_rows + (done - 1) * columns,
-                       v_rows + (done - 1) * columns);
-    }
-    std::size_t kept = 0;
-    for (std::size_t p = 0; p < pulses_; ++p)
-        if (pulse_[p].given < 1.0) {
-            if (kept != p)
-                std::swap(pulse_[kept], pulse_[p]);
-            ++kept;
-        }
-    pulses_ = kept;
-}
-
-void StruckVoice::take_kicks(std::int64_t sample, float* q_row, float* v_row) noexcept {
-    const auto take = [&](Kicks& from, std::size_t begin) {
-        for (; from.next() <= sample; from.pop())
-            for (std::size_t k = 0; k < from.columns() && begin + k < active_; ++k) {
-                q_row[begin + k] = amplitude_[begin + k] += from.q()[k];
-                v_row[begin + k] = rate_of_[begin + k] += from.v()[k];
-            }
-    };
-    take(kicks_->modes, kClick);
-    take(kicks_->click, 0);
 }
 
 void StruckVoice::run(std::int64_t last, const FramePose& to, bool fading, BlockSink& out) {
@@ -234,7 +174,7 @@ bool StruckVoice::clicks() const noexcept {
 }
 
 void StruckVoice::settle() noexcept {
-    if (pulses_ > 0 || (kicks_ && !kicks_->is_empty()))
+    if (pulses_ > 0 || has_next_ || (kicks_ && !kicks_->is_empty()))
         return;
     std::size_t heard =
         std::min(active_, kClick + model_->omega.size()) - std::min(active_, kClick);
@@ -263,6 +203,10 @@ void StruckVoice::advance(const FramePose& pose, BlockSink& out) {
         pose_ = pose;
         done_ = last;
         drives_ = 0;
+        for (std::size_t p = 0; p < pulses_; ++p) {
+            pulse_[p].modes.hurry(done_ + 1);
+            pulse_[p].click.hurry(done_ + 1);
+        }
         return;
     }
     if (kicks_)
@@ -287,6 +231,7 @@ void StruckVoice::finish(BlockSink& out) {
     std::fill(amplitude_.begin(), amplitude_.end(), 0.0f);
     std::fill(rate_of_.begin(), rate_of_.end(), 0.0f);
     active_ = pulses_ = 0;
+    has_next_ = false;
     pose_ = end;
 }
 

@@ -4,6 +4,7 @@
 #include "dsp/storage.h"
 #include "source/kicks.h"
 #include "source/modal_voice.h"
+#include "strike/sampled_pulse.h"
 
 #include <Eigen/Geometry>
 
@@ -27,8 +28,11 @@ struct StruckVoiceModel : ModalVoiceModel {
     AlignedFloats step;
     std::size_t columns = 0;
     ClickColumns click;
-    /// Scratch of a run, for one voice at a time: all fit the cache.
-    mutable AlignedFloats amplitude_rows, rate_rows;
+    std::vector<double> damped; ///< of each mode: sqrt(omega^2 - decay^2) [rad/s]
+    std::vector<float> sharpen; ///< 1 / SampledPulse::smoothing(); 0 where the rate can't carry it
+    /// Scratch of one voice at a time: all fit the cache.
+    mutable AlignedFloats amplitude_rows, rate_rows, mend_rows;
+    mutable std::vector<double> angle, cosine, sine;
 };
 
 /// The recurrence's rows at a rate [Hz].
@@ -39,11 +43,11 @@ void find_steps(StruckVoiceModel& model, double rate);
 /// which is all that is heard of one too small or too stiff to ring.
 ///
 /// Works at the audio rate, half the grid's: modes end at 22 kHz, and images beyond 24 kHz are the
-/// decimator's. A force is told to the recurrence by what it gives within half a sample of each
-/// sample, so that its impulse is exact; that this smooths its spectrum by sinc(w dt / 2) is made
-/// good at each mode's own frequency. Modes come later by the way from the body's middle to its
-/// near side, so that they and the click leave from there together. Modes that nobody could hear
-/// any more stand still. A step allocates nothing.
+/// decimator's. Blows are told to the recurrence as SampledPulse has them; of short ones, which
+/// hold much beyond half the rate, each mode is then given what it lacks of what it has really
+/// got, so that what rings on has no image of them. Modes come later by the way from the body's
+/// middle to its near side, so that they and the click leave from there together. Modes that
+/// nobody could hear any more stand still. A step allocates nothing.
 class StruckVoice {
 public:
     static constexpr std::size_t kMostPulses = 24; ///< at a time; a further one cuts the oldest off
@@ -80,7 +84,8 @@ public:
     void finish(BlockSink& out);
 
     bool is_silent() const noexcept {
-        return active_ == 0 && pulses_ == 0 && drives_ == 0 && (!kicks_ || kicks_->is_empty());
+        return active_ == 0 && pulses_ == 0 && drives_ == 0 && !has_next_ &&
+               (!kicks_ || kicks_->is_empty());
     }
     const StruckVoiceModel& model() const noexcept { return *model_; }
     double energy() const noexcept; ///< of all modes [J]
@@ -90,18 +95,24 @@ public:
 
 private:
     struct Pulse {
-        double begin = 0.0, duration = 0.0;                              ///< [s]
-        double given = 0.0, click_given = 0.0;                           ///< shares of the impulse
-        AlignedFloats push;                                              ///< columns
-        alignas(64) std::array<float, kModeLanes> click{}, click_rate{}; ///< of the first columns
+        SampledPulse modes, click;
+        AlignedFloats push;       ///< columns
+        Vec3 jolt = Vec3::Zero(); ///< of D V, see RigidSound
+
+        std::int64_t last() const noexcept { return std::max(modes.end(), click.end()) - 1; }
     };
+    /// Pulses no longer than this are mended: of others images are 90 dB down [samples].
+    static constexpr double kMended = 5.0;
 
     struct Drive {
         std::int64_t begin = 0;
         std::span<const float> series;
         AlignedFloats push; ///< columns
-        alignas(64) std::array<float, kModeLanes> click{};
+        Vec3 jolt = Vec3::Zero();
     };
+
+    /// What acts within a run.
+    class Acting;
 
     /// Of push(): modes later than the click by lead_.
     struct Given {
@@ -119,12 +130,13 @@ private:
     void run(std::int64_t last, const FramePose& to, bool fading, BlockSink& out);
     void send(std::int64_t first, int samples, const FramePose& to, bool fading, BlockSink& out);
     void give_rest(const Pulse& pulse) noexcept;
+    /// What is lacking of a pulse at its last sample. @param q, v  out: columns.
+    void mend(const Pulse& pulse, float* q, float* v) const noexcept;
     void ring(std::int64_t first, int samples) noexcept;
     /// Up to a sample; to the state, and to the sample's row.
     void take_kicks(std::int64_t sample, float* q_row, float* v_row) noexcept;
     void settle() noexcept;
-    bool carries(double omega) const noexcept; ///< the rate does
-    bool clicks() const noexcept;              ///< the body as a whole is heard
+    bool clicks() const noexcept; ///< the body as a whole is heard
 
     std::shared_ptr<const StruckVoiceModel> model_;
     double rate_;
@@ -134,6 +146,9 @@ private:
     std::size_t pulses_ = 0;
     std::array<Drive, kMostDrives> drive_; ///< drives_ of them
     std::size_t drives_ = 0;
+    /// Of the click's columns, for the next sample.
+    alignas(64) std::array<float, kModeLanes> next_q_{}, next_v_{};
+    bool has_next_ = false;
     std::unique_ptr<Given> kicks_; ///< null: nothing was pushed yet
     AlignedFloats damped_step_;    ///< as StruckVoiceModel::step, while contacts damp
     bool damped_ = false;

@@ -1,6 +1,5 @@
 #include "strike/pulse.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -38,58 +37,65 @@ const Table& table() {
     return made;
 }
 
-double share_of(const Table& table, double u) noexcept {
+} // namespace
+
+double pulse_share(double u) noexcept {
     if (!(u > 0.0))
         return 0.0;
     if (u >= 1.0)
         return 1.0;
+    const Table& course = table();
     const double place = u * kCells;
     const auto c = static_cast<std::size_t>(place);
     const double t = place - static_cast<double>(c), h = 1.0 / kCells;
-    const double a = table.share[c], b = table.share[c + 1];
-    const double da = h * table.force[c], db = h * table.force[c + 1];
+    const double a = course.share[c], b = course.share[c + 1];
+    const double da = h * course.force[c], db = h * course.force[c + 1];
     return a + t * (da + t * (3.0 * (b - a) - 2.0 * da - db + t * (2.0 * (a - b) + da + db)));
+}
+
+namespace {
+
+/// Spectrum and slope at steps of x, cubics between them; cells taken at their middles err by 1e-5.
+class Spectrum {
+public:
+    static constexpr double kEnd = 60.0;
+    static constexpr std::size_t kSteps = 480;
+    static constexpr double kStep = kEnd / kSteps;
+
+    Spectrum() {
+        for (std::size_t i = 0; i < value.size(); ++i) {
+            const double w = kStep * static_cast<double>(i);
+            for (std::size_t c = 0; c < kCells; ++c) { // real: the pulse is even about its middle
+                const double u = (static_cast<double>(c) + 0.5) / kCells;
+                const double part = pulse_share(u + 0.5 / kCells) - pulse_share(u - 0.5 / kCells);
+                value[i] += part * std::cos(w * (u - 0.5));
+                slope[i] -= part * (u - 0.5) * std::sin(w * (u - 0.5));
+            }
+        }
+    }
+
+    std::array<double, kSteps + 2> value{}, slope{};
+};
+
+const Spectrum& spectrum() {
+    static const Spectrum made;
+    return made;
 }
 
 } // namespace
 
-double pulse_share(double u) noexcept { return share_of(table(), u); }
-
-void pulse_shares(double u, double step, int count, double* out) noexcept {
-    const Table& course = table();
-    // Most of a run lies before or after.
-    const auto at = [&](double end) {
-        return static_cast<int>(std::clamp(std::ceil((end - u) / step), 0.0, double(count)));
-    };
-    const int first = at(0.0), last = std::max(first, at(1.0));
-    std::fill(out, out + first, 0.0);
-    for (int i = first; i < last; ++i)
-        out[i] = share_of(course, u + i * step);
-    std::fill(out + last, out + count, 1.0);
-}
-
-double pulse_spectrum(double x) noexcept {
-    constexpr double kEnd = 60.0;
-    constexpr std::size_t kSteps = 480;
-    static const auto table = [] {
-        std::array<double, kSteps + 2> out{};
-        for (std::size_t i = 0; i < out.size(); ++i) {
-            const double w = kEnd * static_cast<double>(i) / kSteps;
-            double sum = 0.0; // real: the pulse is even about its middle
-            for (std::size_t c = 0; c < kCells; ++c) {
-                const double u = (static_cast<double>(c) + 0.5) / kCells;
-                sum += (pulse_share(u + 0.5 / kCells) - pulse_share(u - 0.5 / kCells)) *
-                       std::cos(w * (u - 0.5));
-            }
-            out[i] = std::fabs(sum);
-        }
-        return out;
-    }();
-    if (!(x < kEnd))
-        return 0.0;
-    const double place = x / kEnd * kSteps;
+PulseSpectrum pulse_spectrum(double x) noexcept {
+    if (!(x < Spectrum::kEnd))
+        return {};
+    const Spectrum& table = spectrum();
+    const double place = x / Spectrum::kStep;
     const auto i = static_cast<std::size_t>(place);
-    return table[i] + (place - static_cast<double>(i)) * (table[i + 1] - table[i]);
+    const double t = place - static_cast<double>(i);
+    const double a = table.value[i], b = table.value[i + 1];
+    const double da = Spectrum::kStep * table.slope[i], db = Spectrum::kStep * table.slope[i + 1];
+    const double square = 3.0 * (b - a) - 2.0 * da - db, cube = 2.0 * (a - b) + da + db;
+    return {a + t * (da + t * (square + t * cube)),
+            (da + t * (2.0 * square + t * 3.0 * cube)) / Spectrum::kStep};
 }
 
 } // namespace ode::sound
