@@ -125,6 +125,8 @@ void SampledPulse::hurry(std::int64_t earliest) noexcept {
 double SampledPulse::rest(std::int64_t from) const noexcept {
     if (from <= first_)
         return 1.0;
+    if (from >= end_)
+        return 0.0;
     if (!is_short())
         return 1.0 - pulse_share((static_cast<double>(from) - 0.5 - begin_) / duration_);
     double sum = 0.0;
