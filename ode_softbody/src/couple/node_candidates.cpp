@@ -1,7 +1,9 @@
 // Which nodes, samples and poles a substep has to look at, and for how long that holds.
+#include "couple/free_flight.h"
 #include "couple/node_contact.h"
 #include "couple/outward.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -60,72 +62,117 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
 }
 
 void NodeContact::find_candidates(const NodeArray& position, const NodeArray& velocity,
-                                  const RigidMotion& motion, RoughPlaces& rough) noexcept {
+                                  const RigidShadow& rigid, RoughPlaces& rough) noexcept {
+    const RigidMotion& motion = rigid.motion();
     const Pose pose = shape_.pose.in(motion.pose);
     const double most = kReach * nodes_.mean_edge;
-    const double trembling = kHaste * rough.speed();
-    const bool all = look_wide_in_ <= 0 || samples_.exist();
-    double farthest = 0; // reach of any
-    double closest = std::numeric_limits<double>::infinity();
-    double fastest2 = 0;
-    look_again_in_ = quiet_in_ = closest;
-    if (all) {
-        wide_.resize(nodes_.node.size());
+    const std::span<const NodeGroups::Group> groups = rough.groups().groups();
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    if (look_wide_in_ <= 0 || samples_.exist()) {
+        wide_.resize(groups.size());
         std::iota(wide_.begin(), wide_.end(), 0);
-        look_wide_in_ = closest;
+        look_wide_in_ = wide_free_in_ = kNever;
     }
+    for (std::size_t i = 0; samples_.exist() && i < nodes_.node.size(); ++i)
+        rough.carry(nodes_.node[i]);
+    double closest = kNever;
+    double fastest = 0;
+    look_again_in_ = quiet_in_ = free_in_ = kNever;
     candidate_.clear();
     closing_ *= kFading;
-    const auto is_left_out = [&](int i) {
+    struct Seen { // of what the frame carries
+        double distance, closing, speed;
+        Vec3 normal; // world
+    };
+    const auto see = [&](const Vec3& x) {
+        const SurfaceDistance there = shape_.distance(pose.to_local(x));
+        const Vec3 normal = pose.rotation * there.normal;
+        const Vec3 slip = rough.frame().velocity_at(x) - motion.velocity_at(x);
+        return Seen{there.distance, -slip.dot(normal), slip.norm(), normal};
+    };
+    const double spin = (rough.frame().spin - motion.spin).norm();
+    const double highest = recess_.empty() ? 0 : nodes_.shape.highest;
+    // What strikes may turn the body, so that others come as fast.
+    double striking = closing_;
+    for (const int g : wide_) {
+        const NodeGroups::Group& group = groups[index(g)];
+        const Seen carried = see(rough.frame().pose.to_world(group.center));
+        fastest = std::fmax(fastest, carried.speed + group.radius * spin);
+        if (carried.distance - group.radius - highest - rough.off() < most)
+            striking = std::fmax(striking, carried.closing + group.radius * spin);
+    }
+    const double haste = kHaste * rough.speed() + kTurning * striking;
+    const double reach = std::fmin(most, horizon_ * (haste + kAcceleration / 2 * horizon_));
+    // From a convex shape that stands still, the distance grows at least as along the normal.
+    const bool stands = rigid.role() == RigidRole::fixed;
+    const auto look_at = [&](int i) {
         const int node = nodes_.node[index(i)];
-        rough.carry(node);
-        const auto x = position[index(node)];
-        const auto slip = [&] { return Vec3(velocity[index(node)] - motion.velocity_at(x)); };
-        const double carried2 = slip().squaredNorm();
-        double haste = trembling + kTurning * std::sqrt(carried2);
-        const double reach = std::fmin(most, horizon_ * (haste + kAcceleration / 2 * horizon_));
+        const Seen carried = see(rough.carried(node));
         // A bulge may touch before its node does.
         const double stands_out = has_pole(index(i)) ? nodes_.shape.highest : 0;
-        SurfaceDistance there = shape_.distance(pose.to_local(x));
-        double gap = there.distance - stands_out - rough.off();
-        const double time = time_to_cross(gap, haste);
-        fastest2 = std::fmax(fastest2, carried2);
-        farthest = std::fmax(farthest, reach);
+        double gap = carried.distance - stands_out - rough.off();
         closest = std::fmin(closest, gap);
         if (gap >= reach) {
+            const double time = time_to_cross(gap, haste);
             quiet_in_ = std::fmin(quiet_in_, time);
-            if (time > kWide * horizon_) {
-                look_wide_in_ = std::fmin(look_wide_in_, time);
-                return true;
-            }
             look_again_in_ = std::fmin(look_again_in_, time);
-            return false;
+            if (stands && free_in_ > 0)
+                free_in_ =
+                    std::fmin(free_in_, time_to_fall(gap, carried.closing, rough.acceleration()));
+            return;
         }
         rough.place(node);
-        there = shape_.distance(pose.to_local(x));
+        const auto x = position[index(node)];
+        const SurfaceDistance there = shape_.distance(pose.to_local(x));
+        const Vec3 slip = velocity[index(node)] - motion.velocity_at(x);
+        const double closing = -slip.dot(pose.rotation * there.normal);
         gap = there.distance - stands_out;
-        haste = std::fmax(haste, kTurning * slip().norm());
         quiet_in_ = std::fmin(quiet_in_, std::fmax(0.0, time_to_cross(gap, haste)));
         candidate_.push_back(i);
-        closing_ = std::fmax(closing_, -slip().dot(pose.rotation * there.normal));
+        closing_ = std::fmax(closing_, closing);
+    };
+    const auto is_left_out = [&](int g) {
+        const NodeGroups::Group& group = groups[index(g)];
+        const Seen carried = see(rough.frame().pose.to_world(group.center));
+        const double gap = carried.distance - group.radius - highest - rough.off();
+        if (gap < reach) {
+            for (const int i : rough.groups().members(group))
+                look_at(i);
+            return false;
+        }
+        closest = std::fmin(closest, gap);
+        const double time = time_to_cross(gap, haste);
+        const double flies = stands ? time_to_fall(gap, carried.closing, rough.acceleration()) : 0;
+        if (time > kWide * horizon_) {
+            look_wide_in_ = std::fmin(look_wide_in_, time);
+            wide_free_in_ = std::fmin(wide_free_in_, flies);
+            return true;
+        }
+        quiet_in_ = std::fmin(quiet_in_, time);
+        look_again_in_ = std::fmin(look_again_in_, time);
+        free_in_ = std::fmin(free_in_, flies);
         return false;
     };
     std::erase_if(wide_, is_left_out);
+    std::sort(candidate_.begin(), candidate_.end());
     look_again_in_ = std::fmin(look_again_in_, look_wide_in_);
     quiet_in_ = std::fmin(quiet_in_, look_wide_in_);
+    free_in_ = std::fmin(std::fmin(free_in_, kLeap), std::fmax(wide_free_in_, look_wide_in_));
     for (const int i : candidate_) // poles climb over their neighbours
         if (has_pole(index(i)))
             for (const int t : nodes_.fan(nodes_.node[index(i)]))
                 for (const int node : nodes_.triangle[index(t)])
                     rough.place(node);
-    const double reach = farthest + rough.off();
-    find_points(position, pose, closest < reach + 2 * nodes_.mean_edge, reach);
+    if (stands)
+        foresee(position, velocity, pose, rough);
+    const double farthest = reach + rough.off();
+    find_points(position, pose, closest < farthest + 2 * nodes_.mean_edge, farthest);
     if (!samples_.exist())
         return;
-    const double haste = kHaste * (std::sqrt(fastest2) + rough.speed() + sweeping(motion));
-    look_again_in_ = std::fmin(look_again_in_, time_to_cross(reach, haste));
+    const double sliding = kHaste * (fastest + rough.speed() + sweeping(motion));
+    look_again_in_ = std::fmin(look_again_in_, time_to_cross(farthest, sliding));
     if (samples_.is_near())
-        quiet_in_ = 0;
+        quiet_in_ = free_in_ = 0;
 }
 
 void NodeContact::find_points(const NodeArray& position, const Pose& pose, bool near,

@@ -24,6 +24,7 @@ NodeContact::NodeContact(const SurfaceNodes& nodes, dGeomID geom)
       book_(nodes.node.size()), samples_(nodes), poles_(nodes) {
     candidate_.reserve(nodes.node.size());
     wide_.reserve(nodes.node.size());
+    approach_.reserve(nodes.node.size());
     touch_.reserve(nodes.node.size());
 }
 
@@ -91,7 +92,7 @@ void NodeContact::begin_step(const RigidShape& given, const ContactLaw& law,
     }
     look_again_in_ = 0;
     look_wide_in_ = 0;
-    quiet_in_ = 0;
+    quiet_in_ = free_in_ = 0;
 }
 
 void NodeContact::keep() {
@@ -160,6 +161,8 @@ unsigned long NodeContact::find(const NodeArray& position, const NodeArray& velo
     look_again_in_ -= dt;
     look_wide_in_ -= dt;
     quiet_in_ -= dt;
+    free_in_ -= dt;
+    wide_free_in_ -= dt;
     touch_.clear();
     bearing_ = 0;
     at_once_ = !rigid.can_move() && shape_.kind != ShapeKind::probed;
@@ -179,13 +182,13 @@ unsigned long NodeContact::find(const NodeArray& position, const NodeArray& velo
 
 unsigned long NodeContact::look(const NodeArray& position, const NodeArray& velocity,
                                 const RigidShadow& rigid, RoughPlaces* rough) noexcept {
-    quiet_in_ = 0;
+    quiet_in_ = free_in_ = 0;
     if (shape_.kind == ShapeKind::probed) {
         for (std::size_t i = 0; rough && i < nodes_.node.size(); ++i)
             rough->place(nodes_.node[i]);
         probe_candidates(position, velocity, rigid.motion());
     } else if (rough) {
-        find_candidates(position, velocity, rigid.motion(), *rough);
+        find_candidates(position, velocity, rigid, *rough);
     } else {
         find_candidates(position, velocity, rigid.motion());
     }
@@ -196,6 +199,8 @@ void NodeContact::pass(double dt) noexcept {
     look_again_in_ -= dt;
     look_wide_in_ -= dt;
     quiet_in_ -= dt;
+    free_in_ -= dt;
+    wide_free_in_ -= dt;
     touch_.clear();
     at_once_ = false;
     softening_ = 1;

@@ -11,6 +11,7 @@
 #include "couple/surface_nodes.h"
 #include "couple/surface_probe.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -76,7 +77,9 @@ public:
     /// more looks. 0: those that are near [s].
     void set_horizon(double time) noexcept { horizon_ = time; }
     /// For so long no node can touch the shape, and pass() may stand for find() [s].
-    double quiet_for() const noexcept { return bearing_ == 0 ? quiet_in_ : 0; }
+    double quiet_for() const noexcept { return bearing_ == 0 ? std::max(quiet_in_, free_in_) : 0; }
+    /// Another contact, or this, has pushed the body: its flight is not what was foreseen.
+    void note_push() noexcept { free_in_ = wide_free_in_ = 0; }
     void pass(double dt) noexcept;
     /// The mesh nodes whose motion find() and what follows ask for until the next look; some more
     /// than once.
@@ -131,7 +134,20 @@ private:
                          const RigidMotion& motion) noexcept;
     /// The same of a body whose nodes are brought up to date here.
     void find_candidates(const NodeArray& position, const NodeArray& velocity,
-                         const RigidMotion& motion, RoughPlaces& rough) noexcept;
+                         const RigidShadow& rigid, RoughPlaces& rough) noexcept;
+    /// A node near a shape that stands still.
+    struct Approach {
+        int node;
+        double gap, closing;    ///< where it is [m], [m/s]
+        double acceleration;    ///< towards the shape, at most [m/s^2]
+        double least_gap;       ///< to where it is carried, however it swings [m]
+        double carried_closing; ///< [m/s]
+    };
+    const Approach& approach_of(int node, const NodeArray& position, const NodeArray& velocity,
+                                const Pose& pose, RoughPlaces& rough) noexcept;
+    /// Shortens free_in_ by what candidates, and the curved surface round them, need to touch.
+    void foresee(const NodeArray& position, const NodeArray& velocity, const Pose& pose,
+                 RoughPlaces& rough) noexcept;
     /// Which samples and poles, once the candidates are known.
     /// @param near  whether any node is within `reach` of the shape or two edges more.
     void find_points(const NodeArray& position, const Pose& pose, bool near, double reach) noexcept;
@@ -217,11 +233,14 @@ private:
     std::vector<Planes> planes_;
     std::span<const double> inverse_mass_; ///< of every mesh node [1/kg]; borrowed for the step
     double look_again_in_ = 0;             ///< [s]
-    std::vector<int> wide_;   ///< surface nodes that looks go over, where they may leave out some
+    std::vector<Approach> approach_;       ///< scratch: of the last look
+    std::vector<int> wide_;   ///< groups that looks go over, where they may leave out some
     double look_wide_in_ = 0; ///< all are gone over [s]
     double closing_ = 0;      ///< [m/s]
     double horizon_ = 0;      ///< candidates may get in within it; 0: are within kReach [s]
     double quiet_in_ = 0;     ///< nothing can touch for so long [s]
+    double free_in_ = 0;      ///< nor, if nothing pushes the body, for so long [s]
+    double wide_free_in_ = 0; ///< the same of what wide_ leaves out [s]
     std::size_t bearing_ = 0;
     double softening_ = 1; ///< in the last substep
     struct Memory {

@@ -11,8 +11,9 @@ namespace {
 
 std::size_t index(int i) noexcept { return static_cast<std::size_t>(i); }
 
-/// Largest value of a.w + sum of w_j w_k b_i over the triangle. @param w  out: where.
-double highest(const Vec3& a, const std::array<double, 3>& b, Vec3& w) noexcept {
+} // namespace
+
+double highest_point(const Vec3& a, const std::array<double, 3>& b, Vec3& w) noexcept {
     int top = 0;
     const double corner = a.maxCoeff(&top);
     w = Vec3::Unit(top);
@@ -51,8 +52,6 @@ double highest(const Vec3& a, const std::array<double, 3>& b, Vec3& w) noexcept 
     }
     return best;
 }
-
-} // namespace
 
 void PoleContact::begin_step(const RigidShape& shape, const ContactLaw& law, double share,
                              double dt) {
@@ -151,7 +150,7 @@ void PoleContact::find_deepest(Pole& pole, const NodeArray& position,
             rise[index(i)] += half * 2 * coupling[index(i)];
         }
         Vec3 w;
-        const double here = highest(lifted, rise, w);
+        const double here = highest_point(lifted, rise, w);
         if (here <= most)
             continue;
         most = here;

@@ -9,6 +9,9 @@
 
 namespace ode::soft {
 
+/// Largest value of a.w + sum of w_j w_k b_i over a triangle. @param w  out: where, corner weights.
+double highest_point(const Vec3& a, const std::array<double, 3>& b, Vec3& w) noexcept;
+
 /// Contact of a soft body's bulges with a rigid shape's flat faces, as of the curved surface that
 /// the facets stand for: a ball of facets meets a floor in one point, on whichever facet, edge or
 /// node it lies, and yields there by Hertz's law less the mesh's share (HertzSpring). Owned by

@@ -4,8 +4,9 @@
 
 namespace ode::soft {
 
-FramePlaces::FramePlaces(const ModalMotion& motion, NodeState& nodes)
-    : motion_(motion), nodes_(nodes) {
+FramePlaces::FramePlaces(const ModalMotion& motion, const NodeGroups& groups, NodeState& nodes)
+    : RoughPlaces(groups, motion.basis().rest), motion_(motion), nodes_(nodes),
+      placed_(motion.basis().nodes(), 0) {
     for (AlignedVector<float>& q : scratch_)
         q.assign(motion.basis().columns, 0.0f);
 }
@@ -13,27 +14,42 @@ FramePlaces::FramePlaces(const ModalMotion& motion, NodeState& nodes)
 void FramePlaces::begin() noexcept {
     const ModalBasis& b = motion_.basis();
     const ModalState& now = motion_.state();
-    turn_ = now.turn.toRotationMatrix();
-    spin_ = motion_.spin();
-    moved_.emplace(b, std::span(now.amplitude).first(b.audible_columns), scratch_[0]);
-    rate_.emplace(b, std::span(now.rate).first(b.audible_columns), scratch_[1]);
-    off_ = motion_.largest_displacement();
+    ++look_;
+    frame_ = {{now.center, now.turn.toRotationMatrix()}, now.velocity, motion_.spin()};
+    moved_.emplace(b, motion_.awake(now.amplitude), scratch_[0]);
+    rate_.emplace(b, motion_.awake(now.rate), scratch_[1]);
+    const ModalMotion::Swing most = motion_.swing(scratch_[2], scratch_[3]);
+    off_ = most.way;
+    rush_ = most.speed;
     speed_ = std::sqrt(2 * motion_.vibration_energy() / b.total_mass);
+    acceleration_ = motion_.frame_acceleration();
 }
 
 void FramePlaces::carry(int node) noexcept {
     const auto n = static_cast<std::size_t>(node);
-    const Vec3 arm = turn_ * motion_.basis().rest[n];
-    nodes_.position[n] = motion_.state().center + arm;
-    nodes_.velocity[n] = motion_.state().velocity + spin_.cross(arm);
+    nodes_.position[n] = carried(node);
+    nodes_.velocity[n] = frame_.velocity_at(nodes_.position[n]);
 }
 
 void FramePlaces::place(int node) noexcept {
     const ModalBasis& b = motion_.basis();
     const auto n = static_cast<std::size_t>(node);
-    const Vec3 arm = turn_ * (b.rest[n] + moved_->at(n));
-    nodes_.position[n] = motion_.state().center + arm;
-    nodes_.velocity[n] = motion_.state().velocity + spin_.cross(arm) + turn_ * rate_->at(n);
+    if (placed_[n] == look_)
+        return;
+    placed_[n] = look_;
+    const Mat3& turn = frame_.pose.rotation;
+    const Vec3 arm = turn * (b.rest[n] + moved_->at(n));
+    nodes_.position[n] = frame_.pose.position + arm;
+    nodes_.velocity[n] = frame_.velocity + frame_.spin.cross(arm) + turn * rate_->at(n);
+}
+
+RoughPlaces::Swing FramePlaces::swing(int node, const Vec3& direction) noexcept {
+    const std::size_t awake = motion_.awake();
+    const auto [way, acceleration] =
+        reaches(motion_.basis(), static_cast<std::size_t>(node),
+                frame_.pose.rotation.transpose() * direction, std::span(scratch_[2]).first(awake),
+                std::span(scratch_[3]).first(awake));
+    return {way, acceleration};
 }
 
 } // namespace ode::soft

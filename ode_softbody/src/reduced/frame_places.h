@@ -6,28 +6,30 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace ode::soft {
 
-/// Where a body's frame carries its nodes, and, of those that are asked for, where the modes that
-/// are heard move them: what lies above moves nodes by micrometres.
+/// Where a body's frame carries its nodes, and, of those that are asked for, where the modes move
+/// them.
 class FramePlaces final : public RoughPlaces {
 public:
-    /// @param nodes  of the body; borrowed for life, like `motion`.
-    FramePlaces(const ModalMotion& motion, NodeState& nodes);
+    /// @param nodes  of the body; borrowed for life, like `motion` and `groups`.
+    FramePlaces(const ModalMotion& motion, const NodeGroups& groups, NodeState& nodes);
 
     /// As the motion is now, and must stay while nodes are asked for.
     void begin() noexcept;
     void carry(int node) noexcept override;
     void place(int node) noexcept override;
+    Swing swing(int node, const Vec3& direction) noexcept override;
 
 private:
     const ModalMotion& motion_;
     NodeState& nodes_;
-    Mat3 turn_ = Mat3::Identity();
-    Vec3 spin_ = Vec3::Zero();
+    std::vector<unsigned long> placed_; ///< in which look each node was
+    unsigned long look_ = 0;
     std::optional<Spread> moved_, rate_;
-    std::array<AlignedVector<float>, 2> scratch_;
+    std::array<AlignedVector<float>, 4> scratch_; ///< the last two: of each mode's swing()
 };
 
 } // namespace ode::soft

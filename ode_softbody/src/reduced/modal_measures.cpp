@@ -40,6 +40,35 @@ double ModalMotion::largest_speed() const noexcept {
     return sum + state_.velocity.norm() + basis_->radius * spin().norm();
 }
 
+ModalMotion::Swing ModalMotion::swing(std::span<float> way,
+                                      std::span<float> acceleration) const noexcept {
+    // Kicks by what isn't linear change amplitudes by some tenths at most.
+    const double more = bends_ ? 1.5 : 1.0;
+    Swing sum{};
+    for (std::size_t k = 0; k < awake_; ++k) {
+        const double w = basis_->omega[k];
+        const double middle = load_[k] / (w * w);
+        const double q = state_.amplitude[k] - middle, ahead = state_.rate[k] / w;
+        const double swing = more * std::sqrt(q * q + ahead * ahead);
+        const double most = more * std::fabs(middle) + swing;
+        way[k] = static_cast<float>(most);
+        // Of a damped one w^2 q and 2 d q' are no more together.
+        acceleration[k] = static_cast<float>(swing * w * (w + 2 * basis_->decay[k]));
+        sum.way += basis_->reach[k] * most;
+        sum.speed += basis_->reach[k] * w * swing;
+    }
+    return sum;
+}
+
+double ModalMotion::frame_acceleration() const noexcept {
+    if (basis_->held)
+        return 0;
+    // A spin w makes w^2 r, and where inertias differ turns about other axes by as much again.
+    constexpr double kTumble = 4;
+    return steady_force_.norm() / basis_->total_mass +
+           basis_->radius * (kTumble * spin().squaredNorm() + spin_of(steady_torque_).norm());
+}
+
 bool ModalMotion::is_slower(double speed, std::span<const int> nodes) noexcept {
     const double half = was_pushed_ ? 0.5 : 0;
     const Vec3 velocity = state_.velocity + half / basis_->total_mass * linear_impulse_;

@@ -90,6 +90,16 @@ public:
     /// Upper bounds over the body: of a node's displacement in the frame [m], of its speed [m/s].
     double largest_displacement() const noexcept;
     double largest_speed() const noexcept;
+    /// What may come if nothing pushes it, at most, by all modes that are awake together: how far
+    /// a node gets from where the frame carries it [m], how fast it is there [m/s].
+    struct Swing {
+        double way, speed;
+    };
+    /// @param way, acceleration  the same mode by mode: how far [kg^1/2 m], and how fast it is
+    ///                           accelerated [kg^1/2 m/s^2].
+    Swing swing(std::span<float> way, std::span<float> acceleration) const noexcept;
+    /// How fast what the frame carries is accelerated, at most, if nothing pushes it [m/s^2].
+    double frame_acceleration() const noexcept;
     /// Whether none of some nodes is faster at this moment, however they swing. What is pushed as
     /// it was in the last substep is taken in the middle of the push: what lies on a floor lies
     /// still.

@@ -118,6 +118,25 @@ typedef float Lanes __attribute__((vector_size(32))); // two registers where the
         out[i] = total(sum[i]);
 }
 
+[[gnu::always_inline]] inline void reaches_body(const float* row, std::size_t stride,
+                                                std::size_t columns, const float* f, const float* q,
+                                                const float* r, double* out) {
+    const std::size_t registers = columns / ModalBasis::kLanes;
+    const std::size_t next = stride / ModalBasis::kLanes;
+    const auto* const own = reinterpret_cast<const Lanes*>(row);
+    const auto* const one = reinterpret_cast<const Lanes*>(q);
+    const auto* const two = reinterpret_cast<const Lanes*>(r);
+    Lanes sum[2] = {};
+    for (std::size_t k = 0; k < registers; ++k) {
+        const Lanes along = own[k] * f[0] + own[next + k] * f[1] + own[2 * next + k] * f[2];
+        const Lanes size = along < 0 ? -along : along;
+        sum[0] += one[k] * size;
+        sum[1] += two[k] * size;
+    }
+    out[0] = total(sum[0]);
+    out[1] = total(sum[1]);
+}
+
 // The same arithmetic at either register width: equal bits.
 #define ODE_SOFTBODY_BOTH(name, result, parameters, ...)                                           \
     result name##_narrow parameters { return name##_body(__VA_ARGS__); }                           \
@@ -147,6 +166,10 @@ ODE_SOFTBODY_BOTH(squares, void,
                   (const float* row, std::size_t stride, std::size_t columns, const float* scale,
                    double* out),
                   row, stride, columns, scale, out)
+ODE_SOFTBODY_BOTH(reaches, void,
+                  (const float* row, std::size_t stride, std::size_t columns, const float* f,
+                   const float* q, const float* r, double* out),
+                  row, stride, columns, f, q, r, out)
 #undef ODE_SOFTBODY_BOTH
 
 } // namespace
@@ -189,6 +212,15 @@ std::array<double, 6> squares(const ModalBasis& basis, std::size_t node,
     std::array<double, 6> out;
     (has_avx2() ? squares_wide : squares_narrow)(basis.row(node, 0), basis.columns, scale.size(),
                                                  scale.data(), out.data());
+    return out;
+}
+
+std::array<double, 2> reaches(const ModalBasis& basis, std::size_t node, const Vec3& f,
+                              std::span<const float> q, std::span<const float> r) noexcept {
+    const Eigen::Vector3f single = f.cast<float>();
+    std::array<double, 2> out;
+    (has_avx2() ? reaches_wide : reaches_narrow)(basis.row(node, 0), basis.columns, q.size(),
+                                                 single.data(), q.data(), r.data(), out.data());
     return out;
 }
 

@@ -28,6 +28,10 @@ double square(const ModalBasis& basis, const CarriedPoint& point, const Vec3& f,
 std::array<double, 6> squares(const ModalBasis& basis, std::size_t node,
                               std::span<const float> scale) noexcept;
 
+/// Sums over the modes of q, and of r, times the size of the node's rows times f.
+std::array<double, 2> reaches(const ModalBasis& basis, std::size_t node, const Vec3& f,
+                              std::span<const float> q, std::span<const float> r) noexcept;
+
 /// Amplitudes or their rates, made ready to be spread over nodes.
 class Spread {
 public:

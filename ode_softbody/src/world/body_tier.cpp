@@ -206,9 +206,8 @@ double Body::blow_ahead(double steps) noexcept {
     if (rigid_pair_.empty())
         return 0;
     RoughPlaces* const rough = modes_ ? &modes_->rough_places() : nullptr;
-    for (std::size_t i = 0; rough && i < contact_nodes_.node.size(); ++i)
-        rough->place(contact_nodes_.node[i]);
     const double ahead = steps * world_.last_step();
+    const double highest = contact_nodes_.shape.highest;
     double fastest = 0;
     for (const RigidPair& pair : rigid_pair_) {
         const std::optional<RigidShape> shape = capture_shape(pair.geom);
@@ -217,18 +216,40 @@ double Body::blow_ahead(double steps) noexcept {
         const RigidMotion other = motion_of(shape->body);
         // The distance of other shapes takes more to tell.
         const bool told = shape->kind != ShapeKind::probed && shape->kind != ShapeKind::convex;
-        for (const int node : contact_nodes_.node) {
+        const auto judge = [&](int node) {
+            if (rough)
+                rough->place(node);
             const auto n = static_cast<std::size_t>(node);
             const Vec3 x = state_.position[n];
             const Vec3 slip = Vec3(state_.velocity[n]) - other.velocity_at(x);
             if (!told) {
                 fastest = std::max(fastest, slip.norm());
-                continue;
+                return;
             }
             const SurfaceDistance gap = shape->distance_at(other.pose, x);
             const double closing = -gap.normal.dot(slip);
-            if (gap.distance - contact_nodes_.shape.highest < ahead * closing)
+            if (gap.distance - highest < ahead * closing)
                 fastest = std::max(fastest, closing);
+        };
+        if (!rough || !told) {
+            std::for_each(contact_nodes_.node.begin(), contact_nodes_.node.end(), judge);
+            continue;
+        }
+        // Most are out of reach by where the frame carries them.
+        const double spin = (rough->frame().spin - other.spin).norm();
+        const auto is_far = [&](const Vec3& x, double radius) {
+            const Vec3 slip = rough->frame().velocity_at(x) - other.velocity_at(x);
+            const double gap = shape->distance_at(other.pose, x).distance - radius - rough->off();
+            return gap - highest >= ahead * (slip.norm() + spin * radius + rough->rush());
+        };
+        for (const NodeGroups::Group& group : rough->groups().groups()) {
+            if (is_far(rough->frame().pose.to_world(group.center), group.radius))
+                continue;
+            for (const int i : rough->groups().members(group)) {
+                const int node = contact_nodes_.node[static_cast<std::size_t>(i)];
+                if (!is_far(rough->carried(node), 0))
+                    judge(node);
+            }
         }
     }
     return fastest;

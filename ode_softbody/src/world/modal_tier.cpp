@@ -8,8 +8,9 @@ namespace ode::soft {
 
 ModalTier::ModalTier(std::shared_ptr<const ModalBasis> basis, const SurfaceNodes& surface,
                      std::span<const Vec3> normal, NodeState& nodes)
-    : motion_(std::move(basis)), view_(motion_, nodes), rough_(motion_, nodes), surface_(surface),
-      nodes_(nodes), inverse_mass_(motion_.basis().nodes(), 0.0), rest_box_(Aabb::empty()) {
+    : motion_(std::move(basis)), view_(motion_, nodes), groups_(surface.node, motion_.basis().rest),
+      rough_(motion_, groups_, nodes), surface_(surface), nodes_(nodes),
+      inverse_mass_(motion_.basis().nodes(), 0.0), rest_box_(Aabb::empty()) {
     for (std::size_t i = 0; i < surface.node.size(); ++i) {
         const auto n = static_cast<std::size_t>(surface.node[i]);
         inverse_mass_[n] = motion_.inverse_mass(n, normal[i]);

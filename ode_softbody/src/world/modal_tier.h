@@ -38,8 +38,10 @@ public:
     /// @param pushed  by contact.
     void moved(bool pushed) noexcept {
         stale_ = near_stale_ = true;
+        pushed_ = pushed;
         view_.end(pushed);
     }
+    bool was_pushed() const noexcept { return pushed_; } ///< in the last substep
 
     void clear_near() noexcept {
         near_.clear();
@@ -66,6 +68,7 @@ public:
 private:
     ModalMotion motion_;
     ContactView view_;
+    NodeGroups groups_;
     FramePlaces rough_;
     const SurfaceNodes& surface_;
     NodeState& nodes_;
@@ -76,6 +79,7 @@ private:
     double pace_ = 0;
     bool stale_ = false;
     bool near_stale_ = true;
+    bool pushed_ = false;
 };
 
 } // namespace ode::soft

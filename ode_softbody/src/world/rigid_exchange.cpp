@@ -13,6 +13,10 @@ namespace {
 // How long an island that was touched is substepped though it isn't near [s].
 constexpr double kLinger = 0.1;
 
+// Substeps of a body that rings, unpushed, between looks for how long it may leap: what is near a
+// shape but not in it needs no look at each.
+constexpr int kPatience = 4;
+
 } // namespace
 
 void RigidExchange::begin_step(dWorldID world, std::span<const std::unique_ptr<Body>> bodies,
@@ -104,8 +108,6 @@ void RigidExchange::meet_rigid(double h, double dt) {
 }
 
 void RigidExchange::look_ahead(bool first) noexcept {
-    // Nodes near a shape but not in it need no look at every substep.
-    constexpr int kPatience = 16;
     // Each candidate's motion is summed from modes at every substep: the fewer the better.
     constexpr double kHorizon = 1e-4; ///< [s]
     const auto each = [&](auto visit) {
@@ -114,17 +116,22 @@ void RigidExchange::look_ahead(bool first) noexcept {
                 visit(contact, *contact.body, *contact.body->modes_);
     };
     bool looked = first;
-    each([&](Contact& contact, Body&, ModalTier& modes) {
-        contact.idle = contact.law->bearing() ? 0 : contact.idle + 1;
-        if (contact.law->quiet_for() <= 0 && contact.idle >= kPatience) {
+    each([&](Contact& contact, Body& body, ModalTier& modes) {
+        NodeContact& law = *contact.law;
+        if (modes.was_pushed()) {
+            law.note_push();
             contact.idle = 0;
-            contact.law->look_soon();
+        } else {
+            ++contact.idle;
         }
-        if (!contact.law->is_look_due())
+        if (contact.idle >= kPatience && law.quiet_for() < body.contact_pace(law.closing_speed()))
+            law.look_soon();
+        if (!law.is_look_due())
             return;
-        contact.law->set_horizon(kHorizon);
-        contact.law->look(contact.body->state_.position, contact.body->state_.velocity,
-                          shadow_[contact.shadow], &modes.rough_places());
+        contact.idle = 0;
+        law.set_horizon(kHorizon);
+        law.look(body.state_.position, body.state_.velocity, shadow_[contact.shadow],
+                 &modes.rough_places());
         looked = true;
     });
     if (looked) {
@@ -149,6 +156,7 @@ ContactTally RigidExchange::add_forces(double dt) noexcept {
         Body& body = *contact.body;
         if (body.rings() && contact.law->quiet_for() >= dt) {
             contact.law->pass(dt);
+            contact.idle = kPatience; // what is left of the quiet may be too short to use
             continue;
         }
         if (body.rings())

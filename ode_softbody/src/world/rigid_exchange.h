@@ -80,7 +80,7 @@ private:
         std::unique_ptr<NodeContact> law;
         std::size_t shadow;  ///< index into shadow_
         bool current = true; ///< met in this step
-        int idle = 0;        ///< substeps without a touch, of a body that rings
+        int idle = 0;        ///< substeps since a body that rings was pushed or looked at
     };
 
     void lay_aside_sleepers();

@@ -2,6 +2,8 @@
 // on the same elements.
 #include "tier_run.h"
 
+#include "couple/pole_contact.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -115,6 +117,62 @@ TEST(Flight, OfAModalBodyCostsASubstepAStep) {
     EXPECT_EQ(run.world().stats().modal_substeps, 100u);
     EXPECT_EQ(run.world().stats().element_steps, 0u);
     EXPECT_NEAR(run.body().center_of_mass().z() - 5, -9.81 * 0.1 * 0.1 / 2, 1e-9);
+}
+
+/// How near a floor at z = 0 the curved surface is where a substep ends that bore nothing.
+class LeapWatch final : public Observer {
+public:
+    explicit LeapWatch(const Body& body) : surface_(body.mesh(), body.surface(), body.mass()) {}
+
+    bool wants_substeps() const noexcept override { return true; }
+    bool takes_modes() const noexcept override { return true; }
+    void on_substep(const SubstepView& view) noexcept override {
+        if (view.body.bearing_points() != 0) {
+            ++bearing;
+            return;
+        }
+        ++free;
+        if (view.dt < kLeap) // in what it parts from it may be yet
+            return;
+        const NodeArray& position = view.body.shown_state().position;
+        for (std::size_t t = 0; t < surface_.triangle.size(); ++t) {
+            Vec3 depth, where;
+            for (int i = 0; i < 3; ++i)
+                depth[i] = -position[static_cast<std::size_t>(
+                                         surface_.triangle[t][static_cast<std::size_t>(i)])]
+                                .z();
+            deepest = std::max(deepest, highest_point(depth, surface_.shape.bulge[t], where));
+        }
+    }
+    void on_step(SoftWorld&, double) noexcept override {}
+    void on_body_end(Body&) noexcept override {}
+    void on_world_end(SoftWorld&) noexcept override {}
+
+    long bearing = 0, free = 0;
+    static constexpr double kLeap = 1.2e-5; ///< longer than any substep of contact [s]
+    double deepest = -1;                    ///< where nothing bears [m]
+
+private:
+    SurfaceNodes surface_;
+};
+
+// A bowl that rings and bounces leaps from touch to touch: no leap ends in the floor, though the
+// rim swings by as much as the bowl flies high; it took ten times as many substeps when what is
+// near was looked at in each.
+TEST(Flight, BetweenTouchesIsLeaptOver) {
+    TierRun run(TierChoice::modes, 1, -9.81);
+    throw_down(run, 0.001, 1.0);
+    auto watch = std::make_unique<LeapWatch>(run.body());
+    const LeapWatch& seen = *watch;
+    run.world().add_observer(std::move(watch));
+    for (int i = 0; i < 800; ++i)
+        run.step(1e-3);
+    std::printf("%ld substeps that bear, %ld others, %lu nodes looked at; the deepest that was "
+                "leapt into is %.2g m\n",
+                seen.bearing, seen.free, run.world().stats().contact_tests, seen.deepest);
+    EXPECT_GT(seen.bearing, 500);
+    EXPECT_LT(seen.free, 800 + seen.bearing);
+    EXPECT_LT(seen.deepest, 1e-7);
 }
 
 } // namespace
