@@ -11,13 +11,14 @@ FramePlaces::FramePlaces(const ModalMotion& motion, const NodeGroups& groups, No
         q.assign(motion.basis().columns, 0.0f);
 }
 
-void FramePlaces::begin() noexcept {
+void FramePlaces::begin(bool heard) noexcept {
     const ModalBasis& b = motion_.basis();
     const ModalState& now = motion_.state();
+    const std::size_t columns = heard ? b.audible_columns : motion_.awake();
     ++look_;
     frame_ = {{now.center, now.turn.toRotationMatrix()}, now.velocity, motion_.spin()};
-    moved_.emplace(b, motion_.awake(now.amplitude), scratch_[0]);
-    rate_.emplace(b, motion_.awake(now.rate), scratch_[1]);
+    moved_.emplace(b, std::span(now.amplitude).first(columns), scratch_[0]);
+    rate_.emplace(b, std::span(now.rate).first(columns), scratch_[1]);
     const ModalMotion::Swing most = motion_.swing(scratch_[2], scratch_[3]);
     off_ = most.way;
     rush_ = most.speed;

@@ -18,7 +18,8 @@ public:
     FramePlaces(const ModalMotion& motion, const NodeGroups& groups, NodeState& nodes);
 
     /// As the motion is now, and must stay while nodes are asked for.
-    void begin() noexcept;
+    /// @param heard  nodes are placed by the modes that are heard alone, else by all.
+    void begin(bool heard) noexcept;
     void carry(int node) noexcept override;
     void place(int node) noexcept override;
     Swing swing(int node, const Vec3& direction) noexcept override;

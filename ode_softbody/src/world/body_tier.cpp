@@ -205,7 +205,7 @@ bool Body::bears_in_modes(double blow, ModalTier& modes, bool cubic) noexcept {
 double Body::blow_ahead(double steps) noexcept {
     if (rigid_pair_.empty())
         return 0;
-    RoughPlaces* const rough = modes_ ? &modes_->rough_places() : nullptr;
+    RoughPlaces* const rough = modes_ ? &modes_->rough_places(true) : nullptr;
     const double ahead = steps * world_.last_step();
     const double highest = contact_nodes_.shape.highest;
     double fastest = 0;

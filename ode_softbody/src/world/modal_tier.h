@@ -27,9 +27,9 @@ public:
     void refresh() noexcept;                       ///< all of them, with all momentum
     void place_all() noexcept; ///< as observers see them: without the last digits of momentum
     void place_surface() noexcept;
-    /// To see what is near; good until the motion goes on.
-    RoughPlaces& rough_places() noexcept {
-        rough_.begin();
+    /// To see what is near; good until the motion goes on. @param heard  see FramePlaces
+    RoughPlaces& rough_places(bool heard = false) noexcept {
+        rough_.begin(heard);
         return rough_;
     }
     /// Those that contact looks at, before a substep of dt [s], unless they are up to date.
