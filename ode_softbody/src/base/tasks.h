@@ -68,12 +68,17 @@ void in_pieces(std::size_t count, DoPiece&& do_piece) noexcept {
 /// Of a range of nodes that one pass goes through: some microseconds.
 inline constexpr std::size_t kLeastNodes = 2000;
 
-/// do_range(first, last) that cover [0, size), none shorter than `least` unless it is the only one.
-/// For work whose result doesn't depend on where ranges end.
+/// How many ranges [0, size) is cut in, none shorter than `least` unless it is the only one.
+inline constexpr std::size_t kMostRanges = 16;
+inline std::size_t range_count(std::size_t size, std::size_t least) noexcept {
+    return std::clamp(size / least, std::size_t{1}, kMostRanges);
+}
+
+/// do_range(first, last) that cover [0, size) so. For work whose result doesn't depend on where
+/// ranges end.
 template <class DoRange>
 void in_ranges(std::size_t size, std::size_t least, DoRange&& do_range) noexcept {
-    constexpr std::size_t kMost = 16;
-    const std::size_t pieces = std::clamp(size / least, std::size_t{1}, kMost);
+    const std::size_t pieces = range_count(size, least);
     in_pieces(pieces, [&](std::size_t i) { do_range(size * i / pieces, size * (i + 1) / pieces); });
 }
 

@@ -86,35 +86,12 @@ private:
     bool known_ = false;
 };
 
-/// The first two. Four numbers a node, as they lie in memory: the fourth is zero.
-inline MotionSums kinetic_sums(std::span<const double> mass, const NodeArray& velocity) noexcept {
-    double square[4] = {}, momentum[4] = {};
-    const double* v = velocity.data();
-    for (std::size_t i = 0; i < mass.size(); ++i)
-        for (std::size_t c = 0; c < 4; ++c) {
-            const double p = mass[i] * v[4 * i + c];
-            momentum[c] += p;
-            square[c] += p * v[4 * i + c];
-        }
-    MotionSums sum;
-    sum.kinetic = (square[0] + square[1] + square[2]) / 2;
-    sum.momentum = Vec3(momentum[0], momentum[1], momentum[2]);
-    return sum;
-}
+/// The first two. Done in ranges like the substep, by who has the nodes in his cache: the look is
+/// every tenth substep. Ranges depend on the number of nodes alone, and so do sums.
+MotionSums kinetic_sums(std::span<const double> mass, const NodeArray& velocity) noexcept;
 
 /// Of a load that stays the same [N].
-inline void add_load_sums(std::span<const double> mass, const NodeArray& position,
-                          const NodeArray& load, MotionSums& sum) noexcept {
-    double work[4] = {}, moment[4] = {};
-    const double* x = position.data();
-    const double* f = load.data();
-    for (std::size_t i = 0; i < mass.size(); ++i)
-        for (std::size_t c = 0; c < 4; ++c) {
-            moment[c] += mass[i] * x[4 * i + c];
-            work[c] += f[4 * i + c] * x[4 * i + c];
-        }
-    sum.load = work[0] + work[1] + work[2];
-    sum.moment = Vec3(moment[0], moment[1], moment[2]);
-}
+void add_load_sums(std::span<const double> mass, const NodeArray& position, const NodeArray& load,
+                   MotionSums& sum) noexcept;
 
 } // namespace ode::soft
