@@ -100,8 +100,9 @@ typedef struct dSoundStats {
                         path's own, 2.1 ms at 48 kHz, comes before */
     unsigned long alarms;            /**< raised, see dSoundSetAlarm() */
     dReal alarm_time;                /**< of the last one [s]; 0: none */
-    unsigned long mode_samples;      /**< modes of soft bodies given off, at each sample */
-    unsigned long inaudible_samples; /**< of these, left out: 20 dB below hearing at every ear */
+    unsigned long mode_samples;      /**< modes given off, at each sample */
+    unsigned long inaudible_samples; /**< modes left out: of soft bodies 20 dB below hearing at
+                                          every ear, of rigid ones that ring at 1 m */
 } dSoundStats;
 DSOUND_API int dSoundGetStats(dSoundWorldID world, dSoundStats* stats);
 

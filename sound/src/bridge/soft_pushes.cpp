@@ -47,7 +47,7 @@ void SoftPushes::add(Pair& pair, const dSoftRigidPush& push) {
     // From substep to substep it is the same place: modes do not vary over so little.
     const double near = 2e-3 * surface.radius();
     if (!((at - spot.looked).squaredNorm() < near * near))
-        spot = {at, surface.nearest(at, -force, spot.place.triangle)};
+        spot = {at, surface.nearest(at, -force)};
     surface.project(spot.place, force, pair.now);
     pair.jerk.head<3>() += pair.yields * force;
     pair.jerk.tail<3>() += pair.turns_by * at.cross(force);

@@ -16,20 +16,14 @@ public:
     const StruckSurface::Place& find(const StruckSurface& surface, const Vec3& point,
                                      const Vec3& outward) noexcept {
         const double near = kNear * surface.radius();
-        double least = HUGE_VAL;
-        int likely = 0;
         for (const Spot& own : spot_) {
             const double square = (point - own.point).squaredNorm();
-            if (square >= least || !(outward.dot(own.outward) > kAlike))
-                continue;
-            if (square < near * near)
+            if (square < near * near && outward.dot(own.outward) > kAlike)
                 return own.place;
-            least = square;
-            likely = own.place.triangle;
         }
         next_ = (next_ + 1) % spot_.size();
         Spot& own = spot_[next_];
-        own = {point, outward, surface.nearest(point, outward, likely)};
+        own = {point, outward, surface.nearest(point, outward)};
         return own.place;
     }
 

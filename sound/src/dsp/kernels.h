@@ -46,7 +46,7 @@ struct SplatSurface {
 
 /// One point at successive samples, on its way to one ear.
 struct SpreadRun {
-    static constexpr int kMost = 48; ///< samples
+    static constexpr int kMost = 80; ///< samples
     int samples;
     int every; ///< cells of the ring from one sample to the next
     const float* value;

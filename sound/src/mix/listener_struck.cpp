@@ -73,7 +73,7 @@ void Listener::send_struck(const ModalRun& run, std::size_t e, const float* hear
     const double per_metre = settings_->send_rate() / settings_->air.speed;
     const double least = run.table->near_limit();
     // Seen from the ear, which goes on meanwhile; a parabola through three of the ways, since a
-    // run takes less than a millisecond.
+    // run takes less than two milliseconds.
     const Vec3 pace = run.pace - run.every / per_metre * mach;
     double way[3];
     for (int i = 0; i < 3; ++i)

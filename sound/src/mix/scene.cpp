@@ -239,6 +239,12 @@ void Scene::on_modes(const ModalBlock& block) noexcept {
 }
 
 void Scene::on_modal_run(const ModalRun& run) noexcept {
+    const auto samples = static_cast<unsigned long>(run.samples);
+    const std::size_t modes = run.table->mode.size();
+    const std::size_t heard =
+        std::min(modes, static_cast<std::size_t>(run.columns) - ClickColumns::kCount);
+    count_.mode_samples += samples * heard;
+    count_.inaudible_samples += samples * (modes - heard);
     ModalRun own = run;
     const double before = sounding_->now;
     const double after = next_gain(settings_.send_rate() / (run.every * run.samples));

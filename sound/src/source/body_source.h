@@ -78,7 +78,7 @@ struct ClickColumns {
 /// A struck body at successive samples of the grid. Borrowed. What is the same for all samples of a
 /// run is worked out once.
 struct ModalRun {
-    static constexpr int kMost = 48; ///< samples
+    static constexpr int kMost = 80; ///< samples
     std::int64_t sample;             ///< the first, on the grid
     int samples;
     int columns;                   ///< of the rows: modes, and silent ones up to kModeLanes

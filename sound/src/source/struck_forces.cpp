@@ -80,18 +80,33 @@ void StruckVoice::strike(double time, double duration, std::span<const float> pu
         --pulses_;
     }
     Pulse& made = pulse_[pulses_++];
+    const StruckVoiceModel& model = *model_;
+    const std::size_t n = model.omega.size();
+    const double begin = (time + lead_) * rate_, samples = duration * rate_;
+    const bool at_once = n > 0 && model.omega.front() * duration > kLong;
     using Window = SampledPulse::Window;
-    made.modes.aim((time + lead_) * rate_, duration * rate_, Window::kSmooth);
-    made.click.aim(time * rate_, duration * rate_, Window::kFlat);
+    if (at_once)
+        made.modes.aim(begin + 0.5 * samples - 0.5, 1.0, Window::kSmooth);
+    else
+        made.modes.aim(begin, samples, Window::kSmooth);
+    made.click.aim(time * rate_, samples, Window::kFlat);
     made.modes.hurry(done_ + 1);
     made.click.hurry(done_ + 1);
-    made.jolt = model_->rigid.dipole * jerk;
+    made.jolt = model.rigid.dipole * jerk;
     const bool smoothed = made.modes.is_short();
-    for (std::size_t k = 0; k < model_->omega.size(); ++k) {
-        const float sharpen = model_->sharpen[k];
-        made.push[kClick + k] = smoothed ? sharpen * push[k] : sharpen > 0.0f ? push[k] : 0.0f;
+    float* const own = made.push.data() + kClick;
+    for (std::size_t k = 0; k < n; ++k) {
+        const float sharpen = model.sharpen[k];
+        own[k] = smoothed ? sharpen * push[k] : sharpen > 0.0f ? push[k] : 0.0f;
+        if (at_once)
+            own[k] *= static_cast<float>(pulse_spectrum(model.omega[k] * duration).value /
+                                         pulse_spectrum(model.omega[k] / rate_).value);
     }
-    active_ = model_->columns;
+    made.modes_heard = heard(n, 0, [&](std::size_t k) {
+        return std::fabs(static_cast<double>(push[k]) *
+                         pulse_spectrum(model.omega[k] * duration).value);
+    });
+    active_ = std::max(active_, columns_of(made.modes_heard));
 }
 
 void StruckVoice::drive(std::int64_t begin, std::span<const float> series,
@@ -104,7 +119,13 @@ void StruckVoice::drive(std::int64_t begin, std::span<const float> series,
     for (std::size_t k = 0; k < push.size(); ++k)
         made.push[kClick + k] = model_->sharpen[k] > 0.0f ? push[k] : 0.0f;
     made.jolt = model_->rigid.dipole * jerk;
-    active_ = model_->columns;
+    double most = 0.0; // if it came all at once
+    for (const float share : series)
+        most += std::fabs(static_cast<double>(share));
+    made.modes_heard = heard(push.size(), 0, [&](std::size_t k) {
+        return most * std::fabs(static_cast<double>(push[k]));
+    });
+    active_ = std::max(active_, columns_of(made.modes_heard));
 }
 
 void StruckVoice::push(double time, std::span<const double> push, const RigidSound::Six& jerk) {

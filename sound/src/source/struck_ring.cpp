@@ -15,14 +15,13 @@ constexpr std::size_t kClick = ClickColumns::kCount;
 class StruckVoice::Acting {
 public:
     Acting(const StruckVoice& voice, std::int64_t first, int samples) noexcept
-        : voice_(voice), first_(first), samples_(samples),
-          columns_(static_cast<int>(voice.active_)) {}
+        : voice_(voice), first_(first), samples_(samples) {}
 
     /// @param series  its share from the run's first sample on; 0 outside begin .. end.
-    void add(const float* series, const float* q, const float* v, int columns, int begin,
+    void add(const float* series, const float* q, const float* v, std::size_t columns, int begin,
              int end) noexcept {
         if (begin < end)
-            push_[count_++] = {series, q, v, columns, begin, end};
+            push_[count_++] = {series, q, v, static_cast<int>(columns), begin, end};
     }
     /// A pulse's share within the run. @return null: nothing.
     const float* row(const SampledPulse& pulse, int& begin, int& end) noexcept {
@@ -43,13 +42,13 @@ public:
     void add(const Pulse& pulse) noexcept {
         int begin = 0, end = 0;
         if (const float* own = row(pulse.modes, begin, end))
-            add(own, nullptr, pulse.push.data(), columns_, begin, end);
+            add(own, nullptr, pulse.push.data(), columns_of(pulse.modes_heard), begin, end);
         const int last = inside(pulse.modes.end() - 1);
         if (pulse.modes.duration() <= kMended && pulse.modes.end() > first_ && last < samples_) {
             const std::size_t all = voice_.model_->columns;
             float* const q = voice_.model_->mend_rows.data() + 2 * all * mends_++;
             voice_.mend(pulse, q, q + all);
-            add(kOnes, q, q + all, columns_, last, last + 1);
+            add(kOnes, q, q + all, columns_of(pulse.modes_heard), last, last + 1);
         }
         if (const float* own = row(pulse.click, begin, end))
             jolt(own, pulse.jolt, begin, end);
@@ -60,7 +59,7 @@ public:
             const auto at = static_cast<std::size_t>(first_ + i - drive.begin - 1);
             own[i] = at < drive.series.size() ? drive.series[at] : 0.0f;
         }
-        add(own, nullptr, drive.push.data(), columns_, 0, samples_);
+        add(own, nullptr, drive.push.data(), columns_of(drive.modes_heard), 0, samples_);
         jolt(own, drive.jolt, 0, samples_);
     }
     void add_next(const float* q, const float* v) noexcept { add(kOnes, q, v, kModeLanes, 0, 1); }
@@ -115,7 +114,7 @@ private:
 
     const StruckVoice& voice_;
     std::int64_t first_;
-    int samples_, columns_;
+    int samples_;
     int rows_ = 0, count_ = 0, jolts_ = 0;
     std::size_t mends_ = 0;
     float series_[2 * kMost][ModalRun::kMost + 1];

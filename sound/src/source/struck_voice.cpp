@@ -1,5 +1,7 @@
 #include "source/struck_voice.h"
 
+#include "source/hearing.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,10 +15,6 @@ namespace {
 constexpr double kMemory = 5e-3; // [s]
 
 constexpr std::size_t kClick = ClickColumns::kCount;
-
-std::size_t padded(std::size_t columns) {
-    return (columns + kModeLanes - 1) / kModeLanes * kModeLanes;
-}
 
 /// A part of the way from one orientation to another; along the chord where it is short, which is
 /// 1e-4 rad off at most.
@@ -58,7 +56,7 @@ bool carried(double omega, double rate) noexcept { return omega < 0.98 * std::nu
 
 void find_steps(StruckVoiceModel& model, double rate) {
     const std::size_t n = model.omega.size();
-    const std::size_t all = model.columns = padded(kClick + n);
+    const std::size_t all = model.columns = StruckVoice::columns_of(n);
     const double t = 1.0 / rate;
     model.step.assign(4 * all, 0.0f);
     const auto column = [&](std::size_t k, double w, double d) {
@@ -92,10 +90,14 @@ void find_steps(StruckVoiceModel& model, double rate) {
     for (std::size_t k = 0; k < n; ++k)
         column(kClick + k, model.omega[k], model.decay[k]);
     model.damped.clear();
+    model.least_rate.clear();
     model.sharpen.clear();
     for (std::size_t k = 0; k < n; ++k) {
         const double w = model.omega[k], d = model.decay[k];
         model.damped.push_back(std::sqrt(std::max(0.0, (w - d) * (w + d))));
+        constexpr double kBelow = 0.1; // 20 dB
+        model.least_rate.push_back(kBelow * hearing_threshold(w / (2.0 * std::numbers::pi)) /
+                                   (model.level[k] * w));
         model.sharpen.push_back(
             carried(w, rate) ? static_cast<float>(1.0 / SampledPulse::smoothing(w * t)) : 0.0f);
     }
@@ -174,25 +176,26 @@ bool StruckVoice::clicks() const noexcept {
 }
 
 void StruckVoice::settle() noexcept {
-    if (pulses_ > 0 || has_next_ || (kicks_ && !kicks_->is_empty()))
+    if (kicks_ && !kicks_->is_empty())
         return;
-    std::size_t heard =
+    // What pulses have begun to give is theirs.
+    std::size_t least = 0;
+    for (std::size_t p = 0; p < pulses_; ++p)
+        least = std::max(least, pulse_[p].modes_heard);
+    const std::size_t before =
         std::min(active_, kClick + model_->omega.size()) - std::min(active_, kClick);
-    while (heard > 0) {
-        const std::size_t k = heard - 1, at = kClick + k;
-        const double w = model_->omega[k], v = static_cast<double>(rate_of_[at]);
-        if (model_->level[k] * std::hypot(w * static_cast<double>(amplitude_[at]), v) * w >
-            kInaudible)
-            break;
-        amplitude_[at] = rate_of_[at] = 0.0f;
-        --heard;
-    }
-    if (heard == 0 && !clicks()) {
+    const std::size_t now = heard(before, least, [&](std::size_t k) {
+        return std::hypot(model_->omega[k] * static_cast<double>(amplitude_[kClick + k]),
+                          static_cast<double>(rate_of_[kClick + k]));
+    });
+    for (std::size_t k = kClick + now; k < kClick + before; ++k)
+        amplitude_[k] = rate_of_[k] = 0.0f;
+    if (now > 0 || pulses_ > 0 || has_next_ || clicks()) {
+        active_ = columns_of(now);
+    } else {
         std::fill_n(amplitude_.begin(), kClick, 0.0f);
         std::fill_n(rate_of_.begin(), kClick, 0.0f);
         active_ = 0;
-    } else {
-        active_ = padded(kClick + heard);
     }
 }
 

@@ -29,6 +29,8 @@ struct StruckVoiceModel : ModalVoiceModel {
     std::size_t columns = 0;
     ClickColumns click;
     std::vector<double> damped; ///< of each mode: sqrt(omega^2 - decay^2) [rad/s]
+    /// What q' of each mode must be to be heard: 20 dB below hearing at 1 m.
+    std::vector<double> least_rate;
     std::vector<float> sharpen; ///< 1 / SampledPulse::smoothing(); 0 where the rate can't carry it
     /// Scratch of one voice at a time: all fit the cache.
     mutable AlignedFloats amplitude_rows, rate_rows, mend_rows;
@@ -46,13 +48,20 @@ void find_steps(StruckVoiceModel& model, double rate);
 /// decimator's. Blows are told to the recurrence as SampledPulse has them; of short ones, which
 /// hold much beyond half the rate, each mode is then given what it lacks of what it has really
 /// got, so that what rings on has no image of them. Modes come later by the way from the body's
-/// middle to its near side, so that they and the click leave from there together. Modes that
-/// nobody could hear any more stand still. A step allocates nothing.
+/// middle to its near side, so that they and the click leave from there together. Of blows that are
+/// long for the slowest mode only their click goes on in time: they are felt as at once, by what
+/// they hold at each mode's frequency. From the highest down, modes that nobody could hear stand
+/// still. A step allocates nothing.
 class StruckVoice {
 public:
     static constexpr std::size_t kMostPulses = 24; ///< at a time; a further one cuts the oldest off
     static constexpr std::size_t kMostDrives = 8;
     static constexpr int kEvery = 2; ///< samples of the grid for one of these
+    /// Rows hold the click's columns, those of modes, and silent ones.
+    static std::size_t columns_of(std::size_t modes) noexcept {
+        const std::size_t all = ClickColumns::kCount + modes;
+        return (all + kModeLanes - 1) / kModeLanes * kModeLanes;
+    }
 
     /// @param rate  of audio [Hz].
     StruckVoice(std::shared_ptr<const StruckVoiceModel> model, double rate);
@@ -96,7 +105,8 @@ public:
 private:
     struct Pulse {
         SampledPulse modes, click;
-        AlignedFloats push;       ///< columns
+        AlignedFloats push; ///< columns
+        std::size_t modes_heard = 0;
         Vec3 jolt = Vec3::Zero(); ///< of D V, see RigidSound
 
         std::int64_t last() const noexcept { return std::max(modes.end(), click.end()) - 1; }
@@ -104,10 +114,15 @@ private:
     /// Pulses no longer than this are mended: of others images are 90 dB down [samples].
     static constexpr double kMended = 5.0;
 
+    /// For a mode of frequency w, pulses longer than this over w are felt as at once: less than a
+    /// twenty-fifth of their impulse.
+    static constexpr double kLong = 12.0;
+
     struct Drive {
         std::int64_t begin = 0;
         std::span<const float> series;
         AlignedFloats push; ///< columns
+        std::size_t modes_heard = 0;
         Vec3 jolt = Vec3::Zero();
     };
 
@@ -127,6 +142,13 @@ private:
         }
     };
 
+    /// Modes up to the highest that reaches its least rate. @param rate  rate(mode): its q'.
+    template <class Rate>
+    std::size_t heard(std::size_t modes, std::size_t least, Rate rate) const noexcept {
+        while (modes > least && !(rate(modes - 1) > model_->least_rate[modes - 1]))
+            --modes;
+        return modes;
+    }
     void run(std::int64_t last, const FramePose& to, bool fading, BlockSink& out);
     void send(std::int64_t first, int samples, const FramePose& to, bool fading, BlockSink& out);
     void give_rest(const Pulse& pulse) noexcept;

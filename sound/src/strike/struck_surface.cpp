@@ -3,7 +3,10 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace ode::sound {
@@ -66,9 +69,10 @@ StruckSurface::StruckSurface(std::vector<Vec3> node, std::vector<std::array<int,
         }
         reach_.push_back(reach);
         longest_ = std::max(longest_, reach);
-        for (int k = 0; k < 3; ++k)
-            middle_of_[static_cast<std::size_t>(k)].push_back(
-                static_cast<float>(middle_.back()[k]));
+        for (std::size_t k = 0; k < 3; ++k) {
+            middle_of_[k].push_back(static_cast<float>(middle_.back()[static_cast<int>(k)]));
+            facing_of_[k].push_back(static_cast<float>(unit[static_cast<int>(k)]));
+        }
     }
     for (Vec3& n : normal_)
         if (const double length = n.norm(); length > 0.0)
@@ -110,15 +114,52 @@ void StruckSurface::find_curvature() {
     }
 }
 
-StruckSurface::Place StruckSurface::nearest(const Vec3& point, const Vec3& outward,
-                                            int likely) const noexcept {
+StruckSurface::Place StruckSurface::nearest(const Vec3& point, const Vec3& outward) const noexcept {
+    // Middles by the dozen first, those that look there before others: the one next to the point is
+    // a bound that hardly another triangle comes under. Floats err by less than the slack.
+    constexpr std::size_t kBlock = 64;
+    const float slack = 1e-5f * static_cast<float>(radius_);
+    const Eigen::Vector3f p = point.cast<float>(), way = outward.cast<float>();
+    const auto measure = [&](std::size_t begin, std::size_t count, float* square) {
+        const float *x = middle_of_[0].data() + begin, *y = middle_of_[1].data() + begin,
+                    *z = middle_of_[2].data() + begin;
+        for (std::size_t i = 0; i < count; ++i) {
+            const float dx = x[i] - p[0], dy = y[i] - p[1], dz = z[i] - p[2];
+            square[i] = dx * dx + dy * dy + dz * dz;
+        }
+    };
+    float square[kBlock];
+    std::size_t first = 0;
+    std::int32_t next = std::numeric_limits<std::int32_t>::max();
+    for (std::size_t begin = 0; begin < triangle_.size(); begin += kBlock) {
+        const std::size_t count = std::min(kBlock, triangle_.size() - begin);
+        measure(begin, count, square);
+        const float *a = facing_of_[0].data() + begin, *b = facing_of_[1].data() + begin,
+                    *c = facing_of_[2].data() + begin;
+        // Floats above zero are in the order of their bits, of which the last ones tell which.
+        std::int32_t key[kBlock];
+        for (std::size_t i = 0; i < count; ++i) {
+            constexpr float kAway = 1e30f;
+            const float looks = a[i] * way[0] + b[i] * way[1] + c[i] * way[2];
+            const float own = square[i] + (looks > 0.0f ? 0.0f : kAway);
+            key[i] = (std::bit_cast<std::int32_t>(own) & ~std::int32_t{kBlock - 1}) |
+                     static_cast<std::int32_t>(i);
+        }
+        std::int32_t best = next;
+        for (std::size_t i = 0; i < count; ++i)
+            best = std::min(best, key[i]);
+        if (best < next) {
+            next = best;
+            first = begin + static_cast<std::size_t>(best & std::int32_t{kBlock - 1});
+        }
+    }
     Place best[2]; // turned away, turned to the contact
     double least[2] = {HUGE_VAL, HUGE_VAL};
     const auto look = [&](std::size_t t) {
-        const bool looks = facing_[t].dot(outward) > 0.0;
-        if (!looks && least[1] < HUGE_VAL)
+        const bool sees = facing_[t].dot(outward) > 0.0;
+        if (!sees && least[1] < HUGE_VAL)
             return;
-        const double within = least[looks] + reach_[t];
+        const double within = least[sees] + reach_[t];
         if ((point - middle_[t]).squaredNorm() > within * within)
             return;
         const auto at = [&](std::size_t i) -> const Vec3& {
@@ -126,26 +167,16 @@ StruckSurface::Place StruckSurface::nearest(const Vec3& point, const Vec3& outwa
         };
         const Vec3 w = nearest_weights(point, at(0), at(1), at(2));
         const Vec3 x = w[0] * at(0) + w[1] * at(1) + w[2] * at(2);
-        if (const double distance = (point - x).norm(); distance < least[looks]) {
-            least[looks] = distance;
-            best[looks] = {static_cast<int>(t), w, x, distance};
+        if (const double distance = (point - x).norm(); distance < least[sees]) {
+            least[sees] = distance;
+            best[sees] = {static_cast<int>(t), w, x, distance};
         }
     };
-    if (const auto t = static_cast<std::size_t>(likely); t < triangle_.size())
-        look(t);
-    // Middles by the dozen first: most are far off. Floats err by less than the slack.
-    constexpr std::size_t kBlock = 64;
-    const float slack = 1e-5f * static_cast<float>(radius_);
-    const Eigen::Vector3f p = point.cast<float>();
-    float square[kBlock];
+    if (first < triangle_.size())
+        look(first);
     for (std::size_t begin = 0; begin < triangle_.size(); begin += kBlock) {
         const std::size_t count = std::min(kBlock, triangle_.size() - begin);
-        const float *x = middle_of_[0].data() + begin, *y = middle_of_[1].data() + begin,
-                    *z = middle_of_[2].data() + begin;
-        for (std::size_t i = 0; i < count; ++i) {
-            const float dx = x[i] - p[0], dy = y[i] - p[1], dz = z[i] - p[2];
-            square[i] = dx * dx + dy * dy + dz * dz;
-        }
+        measure(begin, count, square);
         const double farthest = least[1] < HUGE_VAL ? least[1] : HUGE_VAL;
         const float within = static_cast<float>(farthest + longest_) + slack;
         const float limit = within * within;

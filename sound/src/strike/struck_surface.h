@@ -30,8 +30,7 @@ public:
 
     /// The place nearest to a point, among those whose outward side looks along `outward` if there
     /// are any: a thin wall is struck from the side that the contact is on.
-    /// @param likely  a triangle that may be near: the answer is the same, and found sooner.
-    Place nearest(const Vec3& point, const Vec3& outward, int likely = 0) const noexcept;
+    Place nearest(const Vec3& point, const Vec3& outward) const noexcept;
 
     /// Where a line of force that acts on the body meets its surface and goes in, the last such
     /// place it comes from; nearest() where it misses.
@@ -59,6 +58,7 @@ private:
     std::vector<Vec3> facing_;                    ///< unit normal of each triangle
     std::vector<Vec3> middle_;                    ///< of each triangle [m]
     std::array<std::vector<float>, 3> middle_of_; ///< x, y, z of the same
+    std::array<std::vector<float>, 3> facing_of_; ///< and of facing_
     std::vector<double> reach_;                   ///< of a triangle from its middle [m]
     std::vector<double> curvature_;               ///< of each node [1/m]
     std::size_t modes_ = 0;
