@@ -8,18 +8,25 @@ namespace {
 
 // Of an interval: sums of substeps.
 constexpr double kRounding = 1e-9;
-// Longest interval by the highest mode moved [rad]: the filter's tangent is 1.27 there, and no two
-// modes resonate with the impulses, whose sum of angles would have to reach 2 pi.
-constexpr double kAngle = 1.5707963267948966;
+// Longest interval by the highest mode moved [rad]: the filter is 1.34 there, and no two modes
+// resonate with the impulses, whose sum of angles would have to reach 2 pi.
+constexpr double kAngle = 2.2;
+
+// Looks between those that ask whether fewer modes would do, and how many of these must say so.
+constexpr int kAsked = 64;
+constexpr int kPatience = 3;
+// Of the force, in amplitudes that it would move: what may be left out. Half of it, to leave out
+// more.
+constexpr double kLeftOut = 0.02;
 
 } // namespace
 
 CubicKicks::CubicKicks(std::shared_ptr<const CubicTerms> terms, std::span<const double> omega)
-    : terms_(std::move(terms)), work_(terms_->make_work()),
+    : terms_(std::move(terms)), work_(terms_->make_work()), level_(terms_->levels() - 1),
       omega_(omega.begin(), omega.begin() + static_cast<std::ptrdiff_t>(terms_->moved())),
       filter_(omega_.size(), 1.0), filtered_(omega_.size(), 0.0), force_(omega_.size(), 0.0),
       longest_(kAngle / *std::max_element(omega_.begin(), omega_.end())) {
-    kept_.force = force_;
+    whole_ = kept_.force = force_;
     load_.assign(terms_->columns(), 0.0);
 }
 
@@ -28,6 +35,8 @@ void CubicKicks::set_load(std::span<const double> push) noexcept {
     if (loaded || loaded_)
         known_ = false;
     loaded_ = loaded;
+    if (loaded_)
+        widen();
     std::copy(push.begin(), push.end(), load_.begin());
 }
 
@@ -38,14 +47,54 @@ void CubicKicks::set_length(double length) noexcept {
     known_ = false;
     for (std::size_t k = 0; k < omega_.size(); ++k) {
         const double half = omega_[k] * length / 2;
-        filter_[k] = half > 1e-4 ? std::tan(half) / half : 1.0;
+        filter_[k] = half > 1e-4 ? std::sqrt(std::tan(half) / half) : 1.0;
     }
+}
+
+void CubicKicks::widen() noexcept {
+    const std::size_t widest = terms_->levels() - 1;
+    if (level_ != widest)
+        known_ = false;
+    level_ = widest;
+    unasked_ = calm_ = 0;
+}
+
+double CubicKicks::left_out(std::size_t level) noexcept {
+    terms_->evaluate(level, filtered_, force_, work_);
+    double off = 0, all = 0;
+    for (std::size_t k = 0; k < omega_.size(); ++k) {
+        const double by = 1 / (omega_[k] * omega_[k]);
+        off += by * (force_[k] - whole_[k]) * (force_[k] - whole_[k]);
+        all += by * whole_[k] * whole_[k];
+    }
+    return off > 0 ? std::sqrt(off / all) : 0;
+}
+
+void CubicKicks::choose_level() noexcept {
+    if (loaded_ || ++unasked_ < kAsked)
+        return;
+    unasked_ = 0;
+    const std::size_t widest = terms_->levels() - 1;
+    terms_->evaluate(widest, filtered_, whole_, work_);
+    if (level_ < widest && left_out(level_) > kLeftOut) {
+        ++level_;
+        calm_ = 0;
+        return;
+    }
+    if (level_ == 0)
+        return;
+    calm_ = left_out(level_ - 1) < kLeftOut / 2 ? calm_ + 1 : 0;
+    if (calm_ < kPatience)
+        return;
+    --level_;
+    calm_ = 0;
 }
 
 void CubicKicks::look(std::span<const double> amplitude) noexcept {
     for (std::size_t k = 0; k < omega_.size(); ++k)
         filtered_[k] = filter_[k] * amplitude[k];
-    energy_ = terms_->evaluate(filtered_, force_, work_);
+    choose_level();
+    energy_ = terms_->evaluate(level_, filtered_, force_, work_);
     if (loaded_)
         terms_->add_push(filtered_, load_, force_, work_);
     for (std::size_t k = 0; k < omega_.size(); ++k)
@@ -95,6 +144,9 @@ void CubicKicks::keep() noexcept {
     kept_.done = done_;
     kept_.energy = energy_;
     kept_.known = known_;
+    kept_.level = level_;
+    kept_.unasked = unasked_;
+    kept_.calm = calm_;
 }
 
 void CubicKicks::take_back() noexcept {
@@ -105,6 +157,9 @@ void CubicKicks::take_back() noexcept {
     done_ = kept_.done;
     energy_ = kept_.energy;
     known_ = kept_.known;
+    level_ = kept_.level;
+    unasked_ = kept_.unasked;
+    calm_ = kept_.calm;
 }
 
 } // namespace ode::soft

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "base/types.h"
+#include "reduced/cubic_rows.h"
 #include "reduced/pair_order.h"
 
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -20,10 +22,12 @@ namespace ode::soft {
 /// moves along. (Left out instead, it would make the body stiffer than the linear one is.)
 ///
 /// Monomials of sorted indices, each once: rows of single numbers, each a beginning of the row of
-/// products (PairOrder), of which one pass makes energy and gradient.
+/// products (PairOrder), of which one pass makes energy and gradient. Fewer active modes leave
+/// beginnings of these: a, then, has no two indices beyond them and b none, so that the other kept
+/// modes are driven like r.
 class CubicTerms {
 public:
-    static constexpr std::size_t kLanes = 16;
+    static constexpr std::size_t kLanes = kRowLanes;
 
     /// Coefficients, in the order of PairOrder.
     struct Coefficients {
@@ -51,18 +55,22 @@ public:
     std::size_t moved() const noexcept { return order_.modes + driven_; } ///< kept and driven
     std::size_t following() const noexcept { return follow_.size(); }     ///< shapes
     std::size_t columns() const noexcept { return columns_; } ///< following(), whole lanes
-    std::size_t entries() const noexcept { return coefficient_.size(); } ///< multiplied to look
+    /// How many modes may be active, rising to kept().
+    std::size_t levels() const noexcept { return level_.size(); }
+    std::size_t active(std::size_t level) const noexcept { return level_[level].active; }
+    std::size_t entries(std::size_t level) const noexcept { return level_[level].entries; }
 
     /// Scratch of one body.
     struct Work {
-        AlignedVector<float> source, answer, sum;
+        AlignedVector<float> source, by, answer, sum;
     };
     Work make_work() const;
 
+    /// @param level      how many modes are active; the others are driven
     /// @param amplitude  of moved() modes.
     /// @param force      minus the gradient [N kg^-1/2].
     /// @return the energy [J].
-    double evaluate(std::span<const double> amplitude, std::span<double> force,
+    double evaluate(std::size_t level, std::span<const double> amplitude, std::span<double> force,
                     Work& work) const noexcept;
 
     /// What a push at what follows does to the kept modes: adds it to `force`, in its unit.
@@ -88,20 +96,33 @@ public:
 private:
     /// Up to four rows of one length, one after another.
     struct Group {
-        std::uint32_t first, rows, registers;
-        std::size_t offset; ///< [floats]
+        std::vector<std::uint32_t> source; ///< what each row is multiplied by
+        std::uint32_t registers;
+        std::uint32_t greatest; ///< index in the first row, one more in each further one; kNone
+        std::size_t offset;     ///< [floats]
     };
-    void add_row(std::uint32_t source, std::size_t entries, std::span<const double> row);
-    void add_slope(double sign, std::span<double> force, const Work& work) const noexcept;
-    void fill(std::span<const double> amplitude, Work& work) const noexcept;
+    static constexpr std::uint32_t kNone = ~0u; ///< whose rows are used whatever is active
+    struct Level {
+        std::size_t active;
+        std::vector<RowBlock> block;
+        std::vector<std::uint32_t> source; ///< of all their rows
+        std::size_t single = 0;            ///< of these, the first ones, are amplitudes
+        std::size_t entries = 0;           ///< multiplied
+    };
+    Group add_group(std::uint32_t greatest, std::vector<std::uint32_t> source, std::size_t entries,
+                    const std::function<double(std::size_t row, std::size_t entry)>& value);
+    void add_level(std::size_t active, std::span<const Group> groups);
+    void add_slope(std::size_t active, double sign, std::span<double> force,
+                   const Work& work) const noexcept;
+    void fill(std::size_t active, std::span<const double> amplitude, Work& work) const noexcept;
 
     PairOrder order_;
     std::size_t driven_, pairs_; ///< pairs_: whole lanes
     std::size_t first_pair_;     ///< where products begin in `source`
     double scale_;               ///< one over the unit
-    std::vector<Group> group_;
-    std::vector<std::uint32_t> row_source_; ///< what each row is multiplied by
+    std::vector<Level> level_;
     AlignedVector<float> coefficient_;
+    AddRows add_rows_;
     std::size_t columns_;
     AlignedVector<float> follow_row_; ///< pairs_ each
     AlignedVector<float> shape_;

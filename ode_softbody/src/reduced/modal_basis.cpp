@@ -60,11 +60,11 @@ void find_gyration(const ModalModel& modes, ModalBasis& out) {
             for (std::size_t n = 0; n < out.nodes(); ++n)
                 coupling += out.mass[n] * modes.shape_at(i, n).cross(modes.shape_at(j, n));
             if (coupling.norm() > kLeastCoupling)
-                out.gyration.push_back({static_cast<int>(i), static_cast<int>(j), coupling});
+                out.gyration.push_back({static_cast<int>(i), static_cast<int>(j), coupling,
+                                        (out.omega[j] - out.omega[i]) / coupling.norm()});
         }
-    std::stable_sort(out.gyration.begin(), out.gyration.end(), [](const auto& a, const auto& b) {
-        return a.coupling.squaredNorm() > b.coupling.squaredNorm();
-    });
+    std::stable_sort(out.gyration.begin(), out.gyration.end(),
+                     [](const auto& a, const auto& b) { return a.spin < b.spin; });
 }
 
 } // namespace

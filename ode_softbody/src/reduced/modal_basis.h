@@ -27,6 +27,7 @@ struct ModalBasis {
     struct Gyration {
         int first, second;
         Vec3 coupling; ///< [-]
+        double spin;   ///< at which it may be as large as the gap between them [rad/s]
     };
 
     std::size_t modes = 0;   ///< without padding
@@ -46,7 +47,7 @@ struct ModalBasis {
     /// contact gives the modes is what it sees them do.
     AlignedVector<float> shape;
     AlignedVector<double> reach;    ///< largest displacement of a node at unit amplitude [kg^-1/2]
-    std::vector<Gyration> gyration; ///< by falling coupling
+    std::vector<Gyration> gyration; ///< by rising spin
     /// First derivative of the inertia by each amplitude: xx, yy, zz, xy, xz, yz rows of `columns`
     /// [kg^1/2 m].
     AlignedVector<double> inertia_slope;

@@ -122,6 +122,8 @@ void ModalMotion::push(const ContactShare& forces, const NodeState& nodes, doubl
         angular_impulse_ += (nodes.position[n] - state_.center).cross(impulse);
     });
     pushed_ = true;
+    if (bends_)
+        cubic_->widen();
     if (!basis_->held) {
         state_.velocity += linear_impulse_ / basis_->total_mass;
         state_.spin_momentum += angular_impulse_;
@@ -199,7 +201,10 @@ void ModalMotion::settle(std::size_t columns, const Vec3& w) noexcept {
 
 int ModalMotion::pieces(const Vec3& spin, double dt) const noexcept {
     double most = 1;
+    const double fast = spin.norm();
     for (const ModalBasis::Gyration& pair : basis_->gyration) {
+        if (fast < kWeak * pair.spin)
+            break; // nor do the others mix
         const double strength = std::fabs(spin.dot(pair.coupling));
         const double gap = std::fabs(basis_->omega[static_cast<std::size_t>(pair.first)] -
                                      basis_->omega[static_cast<std::size_t>(pair.second)]);
@@ -212,7 +217,10 @@ int ModalMotion::pieces(const Vec3& spin, double dt) const noexcept {
 void ModalMotion::mix(const Vec3& spin, double dt) noexcept {
     // q_i'' = 2 w.g q_j' and its reverse: over many periods the two amplitudes turn into one
     // another by w.g a second.
+    const double fast = spin.norm();
     for (const ModalBasis::Gyration& pair : basis_->gyration) {
+        if (fast < kWeak * pair.spin)
+            break;
         const auto i = static_cast<std::size_t>(pair.first);
         const auto j = static_cast<std::size_t>(pair.second);
         const double strength = spin.dot(pair.coupling);

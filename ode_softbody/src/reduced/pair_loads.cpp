@@ -69,8 +69,8 @@ public:
         const Eigen::RowVectorXd pressure = lambda * (h_.row(0) + h_.row(4) + h_.row(8));
         for (int r = 0; r < 3; ++r)
             s_.row(4 * r) += pressure;
-        for (std::size_t i = 0; i < order_.modes; ++i)
-            pair_with(static_cast<Index>(i), lambda, mu);
+        for (std::size_t j = 0; j < order_.modes; ++j)
+            pair_with(static_cast<Index>(j), lambda, mu);
     }
     /// Nine rows: H S' + H' S + C : sym(H^T H'), the first Piola-Kirchhoff stress of each pair.
     const RowMatrix& force() const { return force_; }
@@ -78,33 +78,32 @@ public:
     const RowMatrix& strain() const { return strain_; }
 
 private:
-    void pair_with(Index i, double lambda, double mu) {
-        const auto first =
-            static_cast<Index>(order_.at(static_cast<std::size_t>(i), static_cast<std::size_t>(i)));
-        const Index many = static_cast<Index>(order_.modes) - i;
-        const auto h = [&](int r, int c) { return h_.row(3 * r + c).segment(i, many).array(); };
-        const auto s = [&](int r, int c) { return s_.row(3 * r + c).segment(i, many).array(); };
-        const auto hi = [&](int r, int c) { return h_(3 * r + c, i); };
-        const auto si = [&](int r, int c) { return s_(3 * r + c, i); };
+    void pair_with(Index j, double lambda, double mu) {
+        const auto first = static_cast<Index>(PairOrder::at(0, static_cast<std::size_t>(j)));
+        const Index many = j + 1;
+        const auto h = [&](int r, int c) { return h_.row(3 * r + c).head(many).array(); };
+        const auto s = [&](int r, int c) { return s_.row(3 * r + c).head(many).array(); };
+        const auto hj = [&](int r, int c) { return h_(3 * r + c, j); };
+        const auto sj = [&](int r, int c) { return s_(3 * r + c, j); };
         // H_i^T H_j + H_j^T H_i; of a mode with itself half of that.
         Eigen::Array<double, 6, Eigen::Dynamic, Eigen::RowMajor> g(6, many);
         constexpr int kPlace[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
         for (int r = 0; r < 3; ++r)
             for (int c = r; c < 3; ++c) {
                 auto row = g.row(kPlace[r][c]);
-                row = hi(0, r) * h(0, c) + h(0, r) * hi(0, c);
-                row += hi(1, r) * h(1, c) + h(1, r) * hi(1, c);
-                row += hi(2, r) * h(2, c) + h(2, r) * hi(2, c);
+                row = hj(0, r) * h(0, c) + h(0, r) * hj(0, c);
+                row += hj(1, r) * h(1, c) + h(1, r) * hj(1, c);
+                row += hj(2, r) * h(2, c) + h(2, r) * hj(2, c);
             }
-        g.col(0) *= 0.5;
+        g.col(j) *= 0.5;
         const Eigen::Array<double, 1, Eigen::Dynamic> trace = g.row(0) + g.row(1) + g.row(2);
         for (int r = 0; r < 3; ++r)
             for (int c = 0; c < 3; ++c) {
                 Eigen::Array<double, 1, Eigen::Dynamic> p(many);
                 p.setZero();
                 for (int m = 0; m < 3; ++m)
-                    p += hi(r, m) * s(m, c) + h(r, m) * si(m, c);
-                p[0] *= 0.5;                   // itself: H S once
+                    p += hj(r, m) * s(m, c) + h(r, m) * sj(m, c);
+                p[j] *= 0.5;                   // itself: H S once
                 p += mu * g.row(kPlace[r][c]); // C : H^T H / 2, of which g holds the H^T H
                 if (r == c)
                     p += lambda / 2 * trace;

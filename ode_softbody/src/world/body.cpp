@@ -366,7 +366,7 @@ std::size_t Body::substep_work() const noexcept {
     constexpr std::size_t kEntries = 128; // of the cubic terms: 0.08 ns each
     if (modes_)
         return kModal * modes_->motion().band() +
-               (bends() ? modes_->motion().cubic()->terms().entries() / kEntries : 0);
+               (bends() ? modes_->motion().cubic()->entries() / kEntries : 0);
     return mesh_.element_count() * (mesh_.order == 2 ? kQuadratic : 1);
 }
 

@@ -16,8 +16,8 @@
 namespace ode::soft {
 namespace {
 
-// Kept non-linear: a blow on the floor moves many. Cost grows by the fourth power; 20 halve the
-// error that 36 take to a third, at a sixth of the price.
+// Kept non-linear: a blow on the floor moves many (20 leave 3.3 % of it wrong, 36 2.3 %). What rings
+// has fewer active.
 constexpr std::size_t kKept = 36;
 constexpr std::size_t kMostLoads = std::size_t{1} << 26; ///< numbers, half a gigabyte
 

@@ -126,12 +126,14 @@ struct Condensed : testing::TestWithParam<std::tuple<int, bool, std::size_t>> {
     }
     VectorXd force(const VectorXd& amplitude) {
         VectorXd out(amplitude.size());
-        terms.evaluate({amplitude.data(), terms.moved()}, {out.data(), terms.moved()}, work);
+        terms.evaluate(terms.levels() - 1, {amplitude.data(), terms.moved()},
+                       {out.data(), terms.moved()}, work);
         return out;
     }
     double energy(const VectorXd& amplitude) {
         VectorXd out(amplitude.size());
-        return terms.evaluate({amplitude.data(), terms.moved()}, {out.data(), terms.moved()}, work);
+        return terms.evaluate(terms.levels() - 1, {amplitude.data(), terms.moved()},
+                              {out.data(), terms.moved()}, work);
     }
 
     static constexpr std::size_t kKept = 6;
@@ -231,6 +233,75 @@ TEST_P(Condensed, ForceIsTheElementsAtTheCondensedDisplacement) {
 INSTANTIATE_TEST_SUITE_P(Bowls, Condensed,
                          testing::Values(std::tuple(1, false, 0), std::tuple(2, false, 0),
                                          std::tuple(2, false, 9), std::tuple(2, true, 5)));
+
+/// Fourteen kept modes and three driven ones of no body.
+CubicTerms some_terms() {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    const auto some = [&](Index rows, Index columns) {
+        return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
+    };
+    CubicTerms::Coefficients c;
+    c.order.modes = 14;
+    c.driven = 3;
+    const auto pairs = static_cast<Index>(c.order.count());
+    c.cubic = some(14, pairs);
+    c.quartic = some(pairs, pairs);
+    c.driving = some(3, pairs);
+    c.following = Eigen::MatrixXd(0, pairs);
+    return {c, 1};
+}
+
+// Of a mode that isn't active the terms of third degree with one of it are left, linear in it.
+TEST(CubicLevels, FewerActiveModesLeaveTheOthersDriven) {
+    const CubicTerms terms = some_terms();
+    CubicTerms::Work work = terms.make_work();
+    const std::size_t widest = terms.levels() - 1;
+    ASSERT_EQ(terms.active(widest), 14u);
+    VectorXd force(17);
+    const auto energy = [&](std::size_t level, const VectorXd& q) {
+        return terms.evaluate(level, {q.data(), 17}, {force.data(), 17}, work);
+    };
+    const auto odd = [&](const VectorXd& q) {
+        return (energy(widest, q) - energy(widest, -q)) / 2;
+    };
+    const auto even = [&](const VectorXd& q) {
+        return (energy(widest, q) + energy(widest, -q)) / 2;
+    };
+    for (std::size_t level = 0; level < widest; ++level) {
+        const auto active = static_cast<Index>(terms.active(level));
+        VectorXd low = some_amplitudes(17, 1), high = low;
+        low.tail(17 - active).setZero();
+        high.head(active).setZero();
+        high.tail(3).setZero();
+        const double linear = (odd(low + high) - odd(low - high)) / 2 - odd(high);
+        const double expected = even(low) + odd(low) + linear;
+        EXPECT_NEAR(energy(level, low + high), expected, 2e-6 * (even(low) + std::fabs(odd(low))));
+        EXPECT_LT(terms.entries(level), terms.entries(level + 1));
+    }
+}
+
+TEST(CubicLevels, ForceIsTheEnergysSlopeAtEach) {
+    const CubicTerms terms = some_terms();
+    CubicTerms::Work work = terms.make_work();
+    for (std::size_t level = 0; level < terms.levels(); ++level) {
+        const VectorXd q = some_amplitudes(17, 1);
+        VectorXd force(17), unused(17);
+        terms.evaluate(level, {q.data(), 17}, {force.data(), 17}, work);
+        for (Index k = 0; k < 17; ++k) {
+            constexpr double h = 1e-2; // of a polynomial of fourth degree: Richardson's is exact
+            const auto slope = [&](double step) {
+                VectorXd up = q, down = q;
+                up[k] += step;
+                down[k] -= step;
+                return (terms.evaluate(level, {up.data(), 17}, {unused.data(), 17}, work) -
+                        terms.evaluate(level, {down.data(), 17}, {unused.data(), 17}, work)) /
+                       (2 * step);
+            };
+            EXPECT_NEAR(-(4 * slope(h) - slope(2 * h)) / 3, force[k], 3e-4 * force.norm()) << k;
+        }
+    }
+}
 
 } // namespace
 } // namespace ode::soft
