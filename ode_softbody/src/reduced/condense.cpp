@@ -75,7 +75,9 @@ void few_shapes(const ModalModel& modes, std::span<const double> mass, const Row
     for (Index r = 0; r < root.size(); ++r)
         root[r] = std::sqrt(mass[static_cast<std::size_t>(r / 3)]);
     const RowMatrix scaled = root.asDiagonal() * moved * weight.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> parts(scaled.transpose() * scaled);
+    MatrixXd square = MatrixXd::Zero(pairs, pairs);
+    square.selfadjointView<Eigen::Lower>().rankUpdate(scaled.transpose());
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> parts(square); // reads the lower half
     const double all = parts.eigenvalues().sum();
     constexpr double kLeast = 1e-13; // of the square, above what rounding leaves
     std::size_t count = 0;
@@ -115,8 +117,10 @@ CubicTerms::Coefficients condense(const TetMesh& mesh, std::span<const Solid> so
     for (Index k = 0; k < left; ++k)
         share.row(k) /= eigenvalue_of(modes.frequency[static_cast<std::size_t>(first + k)]);
     moved.noalias() += phi.rightCols(left) * share;
-    const MatrixXd gives_way = loads.load.transpose() * moved;
-    out.quartic = loads.quartic - (gives_way + gives_way.transpose()) / 4;
+    MatrixXd gives_way(loads.load.cols(), loads.load.cols()); // symmetric: half of it is enough
+    gives_way.triangularView<Eigen::Lower>() = loads.load.transpose() * moved;
+    gives_way.triangularView<Eigen::StrictlyUpper>() = gives_way.transpose();
+    out.quartic = loads.quartic - gives_way / 2;
     moved = -moved;
     few_shapes(modes, mass, moved, extent.following, out);
     return out;
