@@ -136,10 +136,7 @@ void high_pass(int nodes, const double* in, double keep, double pass, double* be
 } // namespace ode::sound::ODE_SOUND_ISA_NAMESPACE
 
 #include "dsp/kernel_modes.h"
-
-namespace ode::sound::ODE_SOUND_ISA_NAMESPACE {
-namespace {} // namespace
-} // namespace ode::sound::ODE_SOUND_ISA_NAMESPACE
+#include "dsp/kernel_waves.h"
 
 #include "dsp/kernel_splat.h"
 #include "dsp/kernel_spread.h"
@@ -159,6 +156,7 @@ const Kernels kKernels = {ODE_SOUND_ISA_NAME,
                           &ring,
                           &ring_pushed,
                           &weigh,
+                          &by_degree,
                           {&splat<Facing::kAll>, &splat<Facing::kVisible>, &splat<Facing::kCosine>,
                            &splat<Facing::kLeaning>},
                           &spread};

@@ -118,6 +118,10 @@ struct Kernels {
     void (*weigh)(int columns, int samples, int sums, const float* const (*by)[2],
                   const float* q_rows, const float* v_rows, float* const* out);
 
+    /// Sums of real and imaginary parts of coefficients times harmonics, degree by degree: of
+    /// degree l those at l^2 .. (l + 1)^2. Pairs of floats all three; harmonics come twice each.
+    void (*by_degree)(int order, const float* coefficient, const float* harmonic, float* sum);
+
     /// Adds flow / distance of every node to the rings of the ears at the retarded time.
     /// @return largest delay that was not dropped [samples]; 0 if all were.
     double (*splat[4])(const SplatSurface& surface, const SplatEar* ear, int ears);

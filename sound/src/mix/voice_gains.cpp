@@ -7,16 +7,13 @@ namespace ode::sound {
 
 VoiceGains::VoiceGains(const TransferTable& table, std::size_t lead)
     : now_(table.mode.size()), next_(table.mode.size()), lead_(lead),
-      scratch_(table.scratch_size()) {
+      lobes_(std::sqrt(static_cast<double>(table.lobes()))) {
     const std::size_t lanes = (lead + now_.size() + kModeLanes - 1) / kModeLanes * kModeLanes;
     for (AlignedFloats* row : {&velocity_, &acceleration_, &velocity_step_, &acceleration_step_})
         row->assign(lanes, 0.0f);
 }
 
-double VoiceGains::lobe(const Vec3& place) const noexcept {
-    // The finest pattern has scratch_.size() lobes on the sphere.
-    return place.norm() / std::sqrt(static_cast<double>(scratch_.size()));
-}
+double VoiceGains::lobe(const Vec3& place) const noexcept { return place.norm() / lobes_; }
 
 double VoiceGains::share(std::int64_t sample) const noexcept {
     return std::min(1.0, static_cast<double>(sample - looked_) / static_cast<double>(ramp_));
@@ -47,7 +44,7 @@ bool VoiceGains::look(std::int64_t sample, const TransferTable& table, const Vec
         }
         if (!turns_)
             now_.swap(next_);
-        table.gains(there, next_, scratch_);
+        table.gains(there, next_);
         if (anew)
             now_ = next_;
         known_ = true;

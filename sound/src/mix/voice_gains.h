@@ -28,7 +28,7 @@ public:
 
     /// What looks may cost a listener, shared by its voices: numbers of the table a sample. Some
     /// thirtieth of a core; who is short of it looks more rarely.
-    static constexpr double kAllowance = 300.0;
+    static constexpr double kAllowance = 1500.0;
 
     /// The same for a run whose leading columns are the click's, of several ears at once: what
     /// differentiates to the pressure.
@@ -56,7 +56,7 @@ private:
     std::vector<ModeGain> now_, next_;
     std::size_t lead_;
     AlignedFloats velocity_, acceleration_, velocity_step_, acceleration_step_; ///< kModeLanes
-    std::vector<double> scratch_;
+    double lobes_; ///< of the finest pattern, on half a great circle or so
     std::int64_t looked_ = 0;
     std::int64_t watched_ = 0;  ///< after that: whether the ear goes on as it did
     Vec3 seen_ = Vec3::Zero();  ///< the ear in the frame, at the last look [m]

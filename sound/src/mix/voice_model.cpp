@@ -43,12 +43,11 @@ std::string rule_of(const Settings& settings) {
 std::vector<double> mode_levels(const TransferTable& table, std::span<const double> omega) {
     std::vector<double> level(omega.size(), 0.0);
     std::vector<ModeGain> gain(omega.size());
-    std::vector<double> scratch(table.scratch_size());
     const double distance = 1.0 + table.near_limit(); // [m]
     for (int side = 0; side < 6; ++side) {
         Vec3 way = Vec3::Zero();
         way[side / 2] = side % 2 == 0 ? distance : -distance;
-        table.gains(table.centre + way, gain, scratch);
+        table.gains(table.centre + way, gain);
         for (std::size_t k = 0; k < level.size(); ++k)
             level[k] += (std::pow(static_cast<double>(gain[k].acceleration), 2) +
                          std::pow(static_cast<double>(gain[k].velocity) / omega[k], 2)) *

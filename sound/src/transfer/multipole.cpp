@@ -1,41 +1,72 @@
 #include "transfer/multipole.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 namespace ode::sound {
 
-// Recurrences of normalised Legendre functions (Numerical Recipes, 3rd ed., 6.7). sin^m goes with
-// cos(m phi) and sin(m phi) as powers of x + iy, so that the poles need no care.
-void harmonics(const Eigen::Vector3d& direction, int order, double* out) noexcept {
-    const double c = direction[2];
-    double real = 1.0, imag = 0.0; // (x + iy)^m
-    double first = 0.5 / std::sqrt(std::numbers::pi);
-    for (int m = 0; m <= order; ++m) {
-        if (m > 0) {
-            const double next = real * direction[0] - imag * direction[1];
-            imag = real * direction[1] + imag * direction[0];
-            real = next;
-            first *= std::sqrt((2.0 * m + 1.0) / (2.0 * m));
-        }
-        const double scale = m > 0 ? std::numbers::sqrt2 : 1.0;
-        double before = 0.0;
-        double now = first;
-        for (int l = m; l <= order; ++l) {
-            if (l > m) {
-                const double l2 = static_cast<double>(l) * l, m2 = static_cast<double>(m) * m;
-                const double k2 = (l - 1.0) * (l - 1.0);
-                const double up = std::sqrt((4.0 * l2 - 1.0) / (l2 - m2));
-                const double down = l - 1 > m ? std::sqrt((k2 - m2) / (4.0 * k2 - 1.0)) : 0.0;
-                const double next = up * (c * now - down * before);
-                before = now;
-                now = next;
+namespace {
+
+/// Factors of the recurrences, up to the highest degree that anybody asks for.
+struct Recurrence {
+    static std::size_t at(int l, int m) { return static_cast<std::size_t>(l * (l + 1) / 2 + m); }
+
+    Recurrence() {
+        double own = 0.5 / std::sqrt(std::numbers::pi);
+        for (int l = 0; l <= kMaxOrder; ++l) {
+            if (l > 0)
+                own *= std::sqrt((2.0 * l + 1.0) / (2.0 * l));
+            first[static_cast<std::size_t>(l)] = own;
+            const double l2 = static_cast<double>(l) * l, k2 = (l - 1.0) * (l - 1.0);
+            for (int m = 0; m < l; ++m) {
+                const double m2 = static_cast<double>(m) * m;
+                up[at(l, m)] = std::sqrt((4.0 * l2 - 1.0) / (l2 - m2));
+                down[at(l, m)] = l - 1 > m ? std::sqrt((k2 - m2) / (4.0 * k2 - 1.0)) : 0.0;
             }
-            out[l * l + l + m] = scale * now * real;
-            if (m > 0)
-                out[l * l + l - m] = scale * now * imag;
         }
+    }
+
+    static constexpr std::size_t kEntries = (kMaxOrder + 1) * (kMaxOrder + 2) / 2;
+    std::array<double, kMaxOrder + 1> first{};
+    std::array<double, kEntries> up{}, down{};
+};
+
+} // namespace
+
+// Recurrences of normalised Legendre functions (Numerical Recipes, 3rd ed., 6.7), all orders of a
+// degree at once. sin^m goes with cos(m phi) and sin(m phi) as powers of x + iy, so that the poles
+// need no care.
+void harmonics(const Eigen::Vector3d& direction, int order, double* out) noexcept {
+    static const Recurrence table;
+    order = std::min(order, kMaxOrder);
+    const double c = direction[2];
+    double real[kMaxOrder + 1], imag[kMaxOrder + 1]; // (x + iy)^m, times sqrt(2) but for m = 0
+    double row[3][kMaxOrder + 2] = {};
+    double x = 1.0, y = 0.0;
+    for (int m = 0; m <= order; ++m) {
+        const double scale = m > 0 ? std::numbers::sqrt2 : 1.0;
+        real[m] = scale * x;
+        imag[m] = scale * y;
+        const double next = x * direction[0] - y * direction[1];
+        y = x * direction[1] + y * direction[0];
+        x = next;
+    }
+    for (int l = 0; l <= order; ++l) {
+        double* const now = row[l % 3];
+        const double *const before = row[(l + 2) % 3], *const earlier = row[(l + 1) % 3];
+        const double *const up = &table.up[Recurrence::at(l, 0)],
+                            *const down = &table.down[Recurrence::at(l, 0)];
+        for (int m = 0; m < l; ++m)
+            now[m] = up[m] * (c * before[m] - down[m] * earlier[m]);
+        now[l] = table.first[static_cast<std::size_t>(l)];
+        double* const middle = out + l * l + l;
+        for (int m = 0; m <= l; ++m)
+            middle[m] = now[m] * real[m];
+        for (int m = 1; m <= l; ++m)
+            middle[-m] = now[m] * imag[m];
     }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "transfer/boundary.h"
+#include "transfer/multipole.h"
 
 #include <complex>
 #include <span>
@@ -30,7 +31,6 @@ public:
     /// The wave's coefficients times h_l(k radius): pressure on the sphere by harmonic.
     std::vector<std::complex<double>> on_sphere(std::size_t wave) const;
 
-    static constexpr int kMaxOrder = 64;
     /// What a listener at twice the radius and beyond can tell: waves of degree l > kr fade as
     /// (R/r)^(l+1).
     static int order_for(double kr);

@@ -47,13 +47,12 @@ struct TransferTable {
     double near_limit() const noexcept { return radius; }
 
     /// Gains of all modes at a place in the body's frame [m]. No allocation.
-    /// @param scratch  scratch_size() of it.
-    void gains(const Vec3& place, std::span<ModeGain> out,
-               std::span<double> scratch) const noexcept;
-    std::size_t scratch_size() const noexcept;
+    void gains(const Vec3& place, std::span<ModeGain> out) const noexcept;
+    /// Of the finest pattern, on the sphere.
+    int lobes() const noexcept;
 
     /// Complex pressure of a mode per unit modal acceleration, retardation by r/c taken out.
-    std::complex<double> gain(int mode, const Vec3& place) const;
+    std::complex<double> gain(int mode, const Vec3& place) const noexcept;
 };
 
 /// A closed surface and how the modes move it.

@@ -310,6 +310,24 @@ TEST_P(EveryKernel, HighPassIsItsRecurrence) {
         }
     }
 }
+TEST_P(EveryKernel, SumsByDegree) {
+    constexpr int kOrder = 13;
+    constexpr std::size_t kCount = 2 * (kOrder + 1) * (kOrder + 1);
+    std::vector<float> a(kCount), y(kCount), sum(2 * (kOrder + 1)); // nothing beyond their ends
+    for (std::size_t i = 0; i < kCount; ++i) {
+        a[i] = static_cast<float>(noise(static_cast<int>(i)));
+        y[i] = static_cast<float>(noise(static_cast<int>(i / 2) + 900));
+    }
+    kernel.by_degree(kOrder, a.data(), y.data(), sum.data());
+    for (std::size_t l = 0; l <= kOrder; ++l)
+        for (std::size_t part = 0; part < 2; ++part) {
+            double expected = 0.0;
+            for (std::size_t i = l * l; i < (l + 1) * (l + 1); ++i)
+                expected += static_cast<double>(a[2 * i + part]) * static_cast<double>(y[2 * i]);
+            EXPECT_NEAR(sum[2 * l + part], expected, 1e-5) << l;
+        }
+}
+
 // What slides along in registers is what every sample puts down by itself.
 TEST_P(EveryKernel, SpreadPutsEverySampleAtItsDelay) {
     constexpr int kRing = 1024;

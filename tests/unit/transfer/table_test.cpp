@@ -87,9 +87,8 @@ TEST(TransferTable, GainsAreThoseOfEachMode) {
     const TransferTable table =
         make_transfer_table(two_modes_at(sphere(1), {0.5, 2.0}), unit_options());
     std::vector<ModeGain> gain(table.mode.size());
-    std::vector<double> scratch(table.scratch_size());
     const Vec3 x(1.0, -2.0, 0.5);
-    table.gains(x, gain, scratch);
+    table.gains(x, gain);
     for (std::size_t m = 0; m < gain.size(); ++m) {
         const Complex g = table.gain(static_cast<int>(m), x);
         const double w = 2.0 * std::numbers::pi * table.mode[m].frequency;
