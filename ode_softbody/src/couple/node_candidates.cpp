@@ -80,10 +80,6 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
     look_again_in_ = quiet_in_ = free_in_ = kNever;
     candidate_.clear();
     closing_ *= kFading;
-    struct Seen { // of what the frame carries
-        double distance, closing, speed;
-        Vec3 normal; // world
-    };
     const auto see = [&](const Vec3& x) {
         const SurfaceDistance there = shape_.distance(pose.to_local(x));
         const Vec3 normal = pose.rotation * there.normal;
@@ -94,9 +90,10 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
     const double highest = recess_.empty() ? 0 : nodes_.shape.highest;
     // What strikes may turn the body, so that others come as fast.
     double striking = closing_;
+    seen_.resize(groups.size());
     for (const int g : wide_) {
         const NodeGroups::Group& group = groups[index(g)];
-        const Seen carried = see(rough.frame().pose.to_world(group.center));
+        const Seen& carried = seen_[index(g)] = see(rough.frame().pose.to_world(group.center));
         fastest = std::fmax(fastest, carried.speed + group.radius * spin);
         if (carried.distance - group.radius - highest - rough.off() < most)
             striking = std::fmax(striking, carried.closing + group.radius * spin);
@@ -133,7 +130,7 @@ void NodeContact::find_candidates(const NodeArray& position, const NodeArray& ve
     };
     const auto is_left_out = [&](int g) {
         const NodeGroups::Group& group = groups[index(g)];
-        const Seen carried = see(rough.frame().pose.to_world(group.center));
+        const Seen& carried = seen_[index(g)];
         const double gap = carried.distance - group.radius - highest - rough.off();
         if (gap < reach) {
             for (const int i : rough.groups().members(group))

@@ -25,6 +25,7 @@ NodeContact::NodeContact(const SurfaceNodes& nodes, dGeomID geom)
     candidate_.reserve(nodes.node.size());
     wide_.reserve(nodes.node.size());
     approach_.reserve(nodes.node.size());
+    seen_.reserve(nodes.node.size());
     touch_.reserve(nodes.node.size());
 }
 
@@ -54,6 +55,7 @@ void NodeContact::begin_step(const RigidShape& given, const ContactLaw& law,
                              std::span<const double> inverse_mass, double dt) {
     const RigidShape shape = known_shape(given);
     if (!same_shape(shape, shape_)) {
+        changed_ = true;
         std::fill(anchored_.begin(), anchored_.end(), std::uint8_t{0});
         touch_.clear();
         samples_.forget();
@@ -96,6 +98,9 @@ void NodeContact::begin_step(const RigidShape& given, const ContactLaw& law,
 }
 
 void NodeContact::keep() {
+    if (!changed_)
+        return;
+    changed_ = false;
     kept_.anchor = anchor_;
     kept_.entered = entered_;
     kept_.anchored = anchored_;
@@ -108,6 +113,7 @@ void NodeContact::keep() {
 }
 
 void NodeContact::take_back() noexcept {
+    changed_ = true;
     anchor_.swap(kept_.anchor);
     entered_.swap(kept_.entered);
     anchored_.swap(kept_.anchored);
@@ -156,6 +162,7 @@ void NodeContact::prepare_points() {
 unsigned long NodeContact::find(const NodeArray& position, const NodeArray& velocity,
                                 RigidShadow& rigid, double dt) noexcept {
     unsigned long tests = candidate_.size();
+    changed_ = true;
     if (is_look_due())
         tests = look(position, velocity, rigid);
     look_again_in_ -= dt;
@@ -183,6 +190,7 @@ unsigned long NodeContact::find(const NodeArray& position, const NodeArray& velo
 unsigned long NodeContact::look(const NodeArray& position, const NodeArray& velocity,
                                 const RigidShadow& rigid, RoughPlaces* rough) noexcept {
     quiet_in_ = free_in_ = 0;
+    changed_ |= poles_.is_near() || samples_.exist() || shape_.kind == ShapeKind::probed;
     if (shape_.kind == ShapeKind::probed) {
         for (std::size_t i = 0; rough && i < nodes_.node.size(); ++i)
             rough->place(nodes_.node[i]);
@@ -192,6 +200,7 @@ unsigned long NodeContact::look(const NodeArray& position, const NodeArray& velo
     } else {
         find_candidates(position, velocity, rigid.motion());
     }
+    changed_ |= !candidate_.empty();
     return candidate_.size() + nodes_.node.size();
 }
 
@@ -203,6 +212,7 @@ void NodeContact::pass(double dt) noexcept {
     wide_free_in_ -= dt;
     touch_.clear();
     at_once_ = false;
+    changed_ |= softening_ != 1;
     softening_ = 1;
 }
 

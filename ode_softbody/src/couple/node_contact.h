@@ -233,16 +233,22 @@ private:
     std::vector<Planes> planes_;
     std::span<const double> inverse_mass_; ///< of every mesh node [1/kg]; borrowed for the step
     double look_again_in_ = 0;             ///< [s]
-    std::vector<Approach> approach_;       ///< scratch: of the last look
-    std::vector<int> wide_;   ///< groups that looks go over, where they may leave out some
-    double look_wide_in_ = 0; ///< all are gone over [s]
-    double closing_ = 0;      ///< [m/s]
-    double horizon_ = 0;      ///< candidates may get in within it; 0: are within kReach [s]
-    double quiet_in_ = 0;     ///< nothing can touch for so long [s]
-    double free_in_ = 0;      ///< nor, if nothing pushes the body, for so long [s]
-    double wide_free_in_ = 0; ///< the same of what wide_ leaves out [s]
+    struct Seen {                          ///< of what a body's frame carries
+        double distance, closing, speed;
+        Vec3 normal; ///< world
+    };
+    std::vector<Seen> seen_;         ///< scratch: of groups, in the last look
+    std::vector<Approach> approach_; ///< scratch: of the last look
+    std::vector<int> wide_;          ///< groups that looks go over, where they may leave out some
+    double look_wide_in_ = 0;        ///< all are gone over [s]
+    double closing_ = 0;             ///< [m/s]
+    double horizon_ = 0;             ///< candidates may get in within it; 0: are within kReach [s]
+    double quiet_in_ = 0;            ///< nothing can touch for so long [s]
+    double free_in_ = 0;             ///< nor, if nothing pushes the body, for so long [s]
+    double wide_free_in_ = 0;        ///< the same of what wide_ leaves out [s]
     std::size_t bearing_ = 0;
     double softening_ = 1; ///< in the last substep
+    bool changed_ = true;  ///< since keep()
     struct Memory {
         std::vector<Vec3> anchor, entered;
         std::vector<std::uint8_t> anchored;

@@ -18,18 +18,16 @@ double highest_point(const Vec3& a, const std::array<double, 3>& b, Vec3& w) noe
     const double corner = a.maxCoeff(&top);
     w = Vec3::Unit(top);
     double best = corner;
-    // Inside: all three derivatives equal, a_i + sum over others of w_k b = m.
-    Mat3 m;
-    m << 0, b[2], b[1], b[2], 0, b[0], b[1], b[0], 0;
-    Eigen::Matrix4d system;
-    system << m, -Vec3::Ones(), Eigen::RowVector3d::Ones(), 0;
-    Eigen::Vector4d right;
-    right << -a, 1;
     if (b[0] > 0 && b[1] > 0 && b[2] > 0) {
-        const Eigen::Vector4d solution = system.inverse() * right;
-        const Vec3 at = solution.head<3>();
-        if (at.allFinite() && at.minCoeff() >= 0) {
-            const double value = a.dot(at) + 0.5 * at.dot(m * at);
+        // Inside, with w_0 = 1 - w_1 - w_2: both derivatives zero.
+        const double mixed = b[1] + b[2] - b[0];
+        const double first = a[1] - a[0] + b[2], second = a[2] - a[0] + b[1];
+        const double determinant = 4 * b[1] * b[2] - mixed * mixed;
+        const double w1 = (2 * b[1] * first - mixed * second) / determinant;
+        const double w2 = (2 * b[2] * second - mixed * first) / determinant;
+        if (w1 >= 0 && w2 >= 0 && w1 + w2 <= 1) {
+            const Vec3 at(1 - w1 - w2, w1, w2);
+            const double value = a.dot(at) + w1 * w2 * b[0] + w2 * at[0] * b[1] + at[0] * w1 * b[2];
             if (value > best) {
                 w = at;
                 best = value;
