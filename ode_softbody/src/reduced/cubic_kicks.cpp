@@ -81,13 +81,14 @@ void CubicKicks::choose_level() noexcept {
         calm_ = 0;
         return;
     }
-    if (level_ == 0)
-        return;
-    calm_ = left_out(level_ - 1) < kLeftOut / 2 ? calm_ + 1 : 0;
+    const auto fewer_do = [&] { return level_ > 0 && left_out(level_ - 1) < kLeftOut / 2; };
+    calm_ = fewer_do() ? calm_ + 1 : 0;
     if (calm_ < kPatience)
         return;
-    --level_;
     calm_ = 0;
+    do
+        --level_;
+    while (fewer_do());
 }
 
 void CubicKicks::look(std::span<const double> amplitude) noexcept {

@@ -122,7 +122,7 @@ void ModalMotion::push(const ContactShare& forces, const NodeState& nodes, doubl
         angular_impulse_ += (nodes.position[n] - state_.center).cross(impulse);
     });
     pushed_ = true;
-    if (bends_)
+    if (bends_ && band_ > basis_->gentle_columns)
         cubic_->widen();
     if (!basis_->held) {
         state_.velocity += linear_impulse_ / basis_->total_mass;
