@@ -6,7 +6,7 @@
 // function compiled twice gives the same bits both ways: ODE_SOFTBODY_AVX2 marks the wide copy.
 #if defined(__x86_64__) && defined(__GNUC__)
 #define ODE_SOFTBODY_AVX2 __attribute__((target("avx2")))
-#define ODE_SOFTBODY_AVX512 __attribute__((target("avx512f")))
+#define ODE_SOFTBODY_AVX512 __attribute__((target("avx512f,prefer-vector-width=512")))
 #else
 #define ODE_SOFTBODY_AVX2
 #define ODE_SOFTBODY_AVX512

@@ -25,6 +25,10 @@ ODE_SOFTBODY_AVX2 void advance_wide(const double* table, std::size_t n, std::siz
                                     double* q, double* v) {
     advance_body(table, n, count, q, v);
 }
+ODE_SOFTBODY_AVX512 void advance_widest(const double* table, std::size_t n, std::size_t count,
+                                        double* q, double* v) {
+    advance_body(table, n, count, q, v);
+}
 
 } // namespace
 
@@ -88,8 +92,8 @@ std::span<const double> Oscillators::drift(double dt) noexcept {
 
 void Oscillators::advance(double dt, std::span<double> amplitude, std::span<double> rate) noexcept {
     const Length& by = length(dt);
-    (has_avx2() ? advance_wide : advance_narrow)(by.table.data(), size(), amplitude.size(),
-                                                 amplitude.data(), rate.data());
+    const auto run = has_avx512() ? advance_widest : has_avx2() ? advance_wide : advance_narrow;
+    run(by.table.data(), size(), amplitude.size(), amplitude.data(), rate.data());
 }
 
 } // namespace ode::soft
