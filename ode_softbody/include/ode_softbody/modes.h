@@ -69,7 +69,7 @@ DSOFT_API int dSoftModesGetT60(dSoftModesID modes, const dReal** first);
 DSOFT_API int dSoftModesGetShape(dSoftModesID modes, int mode, const dReal** first, int* stride);
 
 /** Where results that take long are kept from run to run: $ODE_SOFTBODY_CACHE, else
- * $XDG_CACHE_HOME/ode_softbody, else ~/.cache/ode_softbody. Modes, and tables of how they sound.
+ * $XDG_CACHE_HOME/ode_softbody, else ~/.cache/ode_softbody. Modes, cubic terms, how modes sound.
  * @return NULL where ODE_SOFTBODY_CACHE is set to nothing, or there is no home; else borrowed until
  * this thread asks again. */
 DSOFT_API const char* dSoftGetCacheDirectory(void);

@@ -1,11 +1,9 @@
 #include "modal/cache.h"
 
 #include "base/error.h"
+#include "base/hash.h"
+#include "base/kept_file.h"
 
-#include <unistd.h>
-
-#include <atomic>
-#include <bit>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -19,37 +17,6 @@ namespace fs = std::filesystem;
 /// Raise when the numbers that solve_modes() gives, or the file's layout, change.
 constexpr std::uint32_t kVersion = 6;
 constexpr char kMagic[8] = {'O', 'S', 'B', 'm', 'o', 'd', 'e', '\n'};
-
-/// Two FNV-1a hashes of 64 bits with different offsets, each stirred at the end (SplitMix64).
-class Hash {
-public:
-    void bytes(const void* data, std::size_t size) {
-        const auto* p = static_cast<const unsigned char*>(data);
-        for (std::size_t i = 0; i < size; ++i) {
-            a_ = (a_ ^ p[i]) * 0x100000001B3u;
-            b_ = (b_ ^ p[i]) * 0x100000001B3u + 0x9E3779B97F4A7C15u;
-        }
-    }
-    void number(std::uint64_t v) { bytes(&v, sizeof v); }
-    void number(double v) { number(std::bit_cast<std::uint64_t>(v == 0 ? 0.0 : v)); } // -0 is 0
-    void indices(std::span<const int> v) {
-        number(std::uint64_t{v.size()});
-        bytes(v.data(), v.size_bytes());
-    }
-    std::uint64_t first() const { return stir(a_); }
-    std::string text() const {
-        return format("%016llx%016llx", static_cast<unsigned long long>(stir(a_)),
-                      static_cast<unsigned long long>(stir(b_)));
-    }
-
-private:
-    static std::uint64_t stir(std::uint64_t z) {
-        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-        z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-        return z ^ (z >> 31);
-    }
-    std::uint64_t a_ = 0xCBF29CE484222325u, b_ = 0x84222325CBF29CE4u;
-};
 
 /// Fixed-size fields of the file, native byte order: the cache belongs to one machine, and a
 /// foreign file fails the version or the checksum.
@@ -73,17 +40,7 @@ std::uint64_t checksum(Header header, const ModalModel& model) {
     return hash.first();
 }
 
-void put(std::ostream& out, const std::vector<double>& v) {
-    out.write(reinterpret_cast<const char*>(v.data()),
-              static_cast<std::streamsize>(v.size() * sizeof(double)));
-}
-
-void get(std::istream& in, std::vector<double>& v, std::uint64_t size) {
-    v.resize(size);
-    in.read(reinterpret_cast<char*>(v.data()), static_cast<std::streamsize>(size * sizeof(double)));
-}
-
-bool write(const fs::path& path, const ModalModel& model) {
+void write(std::ostream& out, const ModalModel& model) {
     Header h;
     std::memset(&h, 0, sizeof h);
     std::memcpy(h.magic, kMagic, sizeof kMagic);
@@ -98,13 +55,10 @@ bool write(const fs::path& path, const ModalModel& model) {
     std::copy_n(model.body.centre.data(), 3, h.centre);
     std::copy_n(model.body.inertia.data(), 9, h.inertia);
     h.checksum = checksum(h, model);
-    std::ofstream out(path, std::ios::binary);
     out.write(reinterpret_cast<const char*>(&h), sizeof h);
-    put(out, model.frequency);
-    put(out, model.error_cents);
-    put(out, model.shape);
-    out.close();
-    return out.good();
+    put_numbers(out, model.frequency);
+    put_numbers(out, model.error_cents);
+    put_numbers(out, model.shape);
 }
 
 /// The model, or what is wrong with the file.
@@ -131,9 +85,9 @@ std::optional<ModalModel> read(const fs::path& path, std::string& fault) {
         return {};
     }
     ModalModel model;
-    get(in, model.frequency, h.modes);
-    get(in, model.error_cents, h.bands);
-    get(in, model.shape, 3 * h.modes * h.nodes);
+    model.frequency = get_numbers(in, h.modes);
+    model.error_cents = get_numbers(in, h.bands);
+    model.shape = get_numbers(in, 3 * h.modes * h.nodes);
     model.node_count = h.nodes;
     model.rigid_modes = static_cast<int>(h.rigid);
     model.complete = h.complete != 0;
@@ -213,18 +167,10 @@ ModalModel cached_modes(const TetMesh& mesh, std::span<const Solid> solids,
                       fault.empty() ? "belongs to another mesh" : fault.c_str()));
     }
     ModalModel model = solve_modes(mesh, solids, options);
-    fs::create_directories(directory, error);
-    static std::atomic<unsigned> serial{0};
-    const fs::path own = path.string() + format(".%ld.%u", static_cast<long>(::getpid()), serial++);
-    const bool written = write(own, model);
-    if (written)
-        fs::rename(own, path, error);
-    if (!written || error) {
+    if (!keep_file(path, [&](std::ostream& out) { write(out, model); }))
         report(format("modal cache '%s' can't be written: the modes will be computed again next "
                       "time (set ODE_SOFTBODY_CACHE to a directory of yours, or to nothing)",
                       directory.c_str()));
-        fs::remove(own, error);
-    }
     return model;
 }
 

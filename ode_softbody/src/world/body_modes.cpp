@@ -3,8 +3,8 @@
 #include "mesh/jacobian.h"
 #include "modal/cache.h"
 #include "modal/modal_decay.h"
-#include "reduced/condense.h"
 #include "reduced/residual_flexibility.h"
+#include "reduced/terms_cache.h"
 #include "world/body.h"
 #include "world/modal_limits.h"
 #include "world/soft_world.h"
@@ -16,8 +16,8 @@
 namespace ode::soft {
 namespace {
 
-// Kept non-linear: a blow on the floor moves many (20 leave 3.3 % of it wrong, 36 2.3 %). What rings
-// has fewer active.
+// Kept non-linear: a blow on the floor moves many (20 leave 3.3 % of it wrong, 36 2.3 %). What
+// rings has fewer active.
 constexpr std::size_t kKept = 36;
 constexpr std::size_t kMostLoads = std::size_t{1} << 26; ///< numbers, half a gigabyte
 
@@ -168,9 +168,8 @@ std::shared_ptr<const CubicTerms> Body::find_cubic() noexcept {
         const ModalOptions options = modal_options();
         return world_.cubics().get(content_hash(mesh_, solids_, options), [&] {
             const double unit = thickness_ / basis.reach[0];
-            CubicTerms terms(condense(mesh_, solids_, options,
-                                      cached_modes(mesh_, solids_, options), mass(), extent),
-                             unit);
+            CubicTerms terms(
+                cached_terms(mesh_, solids_, options, mass(), extent, cache_directory()), unit);
             terms.set_sounding(sounding_modes(basis, terms));
             return terms;
         });
