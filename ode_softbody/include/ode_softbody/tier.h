@@ -19,7 +19,7 @@ extern "C" {
 #endif
 
 /** Chooses between:
- * "explicit"  every node, substep by substep: any strain (default)
+ * "explicit"  every node, substep by substep, by its integrator: any strain (default)
  * "modal"     modes wherever they can be had: a body of one piece, free or held fast by pins, with
  *             at most 500 modes up to 22 kHz, and nailed to no rigid body; else explicit
  * "cubic"     modes, of which the lowest 36 act on one another as the solid's energy up to the

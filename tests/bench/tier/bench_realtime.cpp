@@ -82,10 +82,7 @@ void print_scene(const Scene& scene, int order, double share) {
     for (const TierChoice tier : {TierChoice::modes, TierChoice::cubic, TierChoice::automatic}) {
         const Outcome like = run(closely, order, tier, compared, modes.basis);
         const Outcome timed =
-            run(scene, order, tier,
-                std::max(compared, (tier == TierChoice::automatic && order == 2 ? 0.05 : 1.0) *
-                                       share * scene.seconds),
-                nullptr);
+            run(scene, order, tier, std::max(compared, share * scene.seconds), nullptr);
         std::printf("| %s | %d | %s | %.3g | %.1f | %.2f %% |\n", scene.name, order, name_of(tier),
                     timed.cpu, 1 / timed.cpu, 100 * audible_error(like.rate, nodes.rate));
         std::fflush(stdout);
