@@ -3,13 +3,12 @@
 #include "mesh/generate.h"
 #include "model/make_model.h"
 #include "model/materials.h"
+#include "support/soft_app.h"
 
 #include <gtest/gtest.h>
 
-#include <ode/error.h>
 #include <unistd.h>
 
-#include <cstdarg>
 #include <cstdlib>
 #include <fstream>
 
@@ -17,19 +16,11 @@ namespace ode::soft {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string heard;
-void hear(int, const char* text, va_list arguments) {
-    char line[1024];
-    std::vsnprintf(line, sizeof line, text, arguments);
-    heard += line;
-}
+using test::Messages;
 
 class TermsCache : public testing::Test {
 protected:
     void SetUp() override {
-        heard.clear();
-        dSetMessageHandler(hear);
         std::string name = (fs::temp_directory_path() / "terms_cache_XXXXXX").string();
         ASSERT_NE(mkdtemp(name.data()), nullptr);
         directory_ = name;
@@ -40,10 +31,7 @@ protected:
         const auto model = make_model("stvk", mesh_, {&solid_, 1});
         mass_.assign(model->mass().begin(), model->mass().end());
     }
-    void TearDown() override {
-        dSetMessageHandler(nullptr);
-        fs::remove_all(directory_);
-    }
+    void TearDown() override { fs::remove_all(directory_); }
     CubicTerms::Coefficients get() {
         return cached_terms(mesh_, {&solid_, 1}, options_, mass_, {5, 4, 8}, directory_);
     }
@@ -64,6 +52,7 @@ protected:
         EXPECT_EQ(a.follow, b.follow);
     }
 
+    Messages messages_;
     TetMesh mesh_ = make_bar(0.2, 0.02, 0.01, 5, 1, 1);
     Solid solid_ = find_material("steel")->solid;
     ModalOptions options_;
@@ -79,7 +68,7 @@ TEST_F(TermsCache, GivesBackTheSame) {
     const auto written = fs::last_write_time(file());
     expect_equal(get(), made);
     EXPECT_EQ(fs::last_write_time(file()), written);
-    EXPECT_EQ(heard, "");
+    EXPECT_EQ(Messages::text(), "");
 }
 
 TEST_F(TermsCache, WhatIsDamagedOrCutShortIsToldAndMadeAnew) {
@@ -90,14 +79,14 @@ TEST_F(TermsCache, WhatIsDamagedOrCutShortIsToldAndMadeAnew) {
         out.put('x');
     }
     expect_equal(get(), made);
-    EXPECT_NE(heard.find("is damaged"), std::string::npos) << heard;
-    heard.clear();
+    EXPECT_EQ(Messages::with("is damaged"), 1) << Messages::text();
+    Messages::all().clear();
     fs::resize_file(file(), 100);
     expect_equal(get(), made);
-    EXPECT_NE(heard.find("is damaged"), std::string::npos) << heard;
-    heard.clear();
+    EXPECT_EQ(Messages::with("is damaged"), 1) << Messages::text();
+    Messages::all().clear();
     expect_equal(get(), made);
-    EXPECT_EQ(heard, "");
+    EXPECT_EQ(Messages::text(), "");
 }
 
 } // namespace
